@@ -1,0 +1,114 @@
+// gpu.h - one OpenCL device with its context and queue, and what it can do.
+//
+// The files of this folder are the only ones that include CL/cl.h; above them a device, a kernel and a buffer are
+// opaque. Commands run in order on one queue; gpu_finish() or a map waits for them.
+#ifndef SPLATLAB_LAB_GPU_GPU_H
+#define SPLATLAB_LAB_GPU_GPU_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct Gpu Gpu;
+
+typedef struct {
+    char name[256];     // "pthread-skylake-avx512-Intel(R) ..."
+    char platform[128]; // "Portable Computing Language"
+    char version[128];  // "OpenCL 1.2 pocl"
+    bool is_cpu;        // decides which of the two blend kernels runs
+    int compute_units;
+    size_t memory_bytes;    // of the device, as it says itself
+    size_t max_alloc_bytes; // of one buffer
+    bool has_fp64;
+} GpuInfo;
+
+// All devices of all platforms, in a fixed order; *infos is owned by the caller (mem_free). Zero devices is no failure.
+bool gpu_list(GpuInfo **infos, int *count);
+
+// Opens a device. spec: "" or "auto" (the best GPU, else the CPU), "cpu", "gpu", a number of gpu_list()'s order, or a part of
+// the name. Runs the known-answer self-test the first time a device is used in this process. Fails with the list of what there
+// is, or with what to install when there is none.
+bool gpu_open(const char *spec, Gpu **gpu);
+void gpu_close(Gpu *gpu); // accepts NULL
+
+const GpuInfo *gpu_info(const Gpu *gpu);
+
+// Where kernel files are looked for, first match: gpu_set_kernel_folder(), $SPLATLAB_KERNELS, "kernels" beside the
+// program, the installed folder (PREFIX/share/splatlab/kernels).
+void gpu_set_kernel_folder(const char *folder);
+bool gpu_kernel_path(const char *file, char **path); // owned by the caller
+
+// ---- programs and kernels ----
+typedef struct GpuProgram GpuProgram;
+typedef struct GpuKernel GpuKernel;
+
+// Compiles the file (a name in the kernel folder, "blend_forward_cpu.cl"). options: "-D NAME=1", or "". The kernel folder
+// is on the include path. On failure the message holds the compiler's log with file and line.
+bool gpu_program_create(Gpu *gpu, const char *file, const char *options, GpuProgram **program);
+void gpu_program_destroy(GpuProgram *program); // accepts NULL
+
+// A kernel of the program; destroyed with its program.
+bool gpu_kernel(GpuProgram *program, const char *name, GpuKernel **kernel);
+
+// ---- buffers ----
+typedef struct GpuBuffer GpuBuffer;
+
+// A zeroed buffer of that many bytes (at least 1). `name` is for error messages ("pair records").
+bool gpu_buffer_create(Gpu *gpu, const char *name, size_t bytes, GpuBuffer **buffer);
+void gpu_buffer_destroy(GpuBuffer *buffer);       // accepts NULL
+size_t gpu_buffer_bytes(const GpuBuffer *buffer); // what was asked for last; the capacity may be larger
+
+// Makes room for `bytes`. Grows by half at least, never shrinks;the content is lost when it grows. Allocates nothing in
+// a warm step.
+bool gpu_buffer_reserve(GpuBuffer *buffer, size_t bytes);
+
+// Access from the host: waits for the queue, returns a pointer to the content (on a CPU device the very memory: zero copy).
+// Every map is ended by an unmap before the next kernel uses the buffer.
+typedef enum { GPU_READ = 1, GPU_WRITE = 2, GPU_READ_WRITE = 3 } GpuAccess; // GPU_WRITE: old content is not kept
+bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer);
+bool gpu_buffer_unmap(GpuBuffer *buffer);
+
+// Map, copy, unmap.
+bool gpu_buffer_write(GpuBuffer *buffer, const void *data, size_t bytes);
+bool gpu_buffer_read(GpuBuffer *buffer, void *data, size_t bytes);
+
+// Enqueues setting all bytes (of what was asked for last) to zero.
+bool gpu_buffer_zero(GpuBuffer *buffer);
+
+// ---- launch ----
+typedef struct {
+    enum { GPU_ARG_BUFFER, GPU_ARG_INT, GPU_ARG_UINT, GPU_ARG_FLOAT, GPU_ARG_BYTES } kind;
+    union {
+        GpuBuffer *buffer;
+        int i;
+        unsigned u;
+        float f;
+        struct {
+            const void *data;
+            size_t bytes;
+        } bytes; // a record by value
+    } as;
+} GpuArg;
+
+static inline GpuArg gpu_buffer_arg(GpuBuffer *b) { return (GpuArg){.kind = GPU_ARG_BUFFER, .as.buffer = b}; }
+static inline GpuArg gpu_int_arg(int i) { return (GpuArg){.kind = GPU_ARG_INT, .as.i = i}; }
+static inline GpuArg gpu_uint_arg(unsigned u) { return (GpuArg){.kind = GPU_ARG_UINT, .as.u = u}; }
+static inline GpuArg gpu_float_arg(float f) { return (GpuArg){.kind = GPU_ARG_FLOAT, .as.f = f}; }
+static inline GpuArg gpu_record_arg(const void *data, size_t bytes) {
+    return (GpuArg){.kind = GPU_ARG_BYTES, .as.bytes = {data, bytes}};
+}
+
+// How many work-items: 1-D with height 0, or 2-D. The global size is rounded up to whole groups, so kernels test their range;
+// the local size is always given (PoCL compiles a kernel anew for each).
+typedef struct {
+    size_t width, height;             // work-items wanted
+    size_t group_width, group_height; // work-items of one group
+} GpuRange;
+
+bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int count);
+#define gpu_launch(kernel, range, ...)                                                                                 \
+    gpu_launch_args(kernel, range, (const GpuArg[]){__VA_ARGS__},                                                      \
+                    (int)(sizeof((const GpuArg[]){__VA_ARGS__}) / sizeof(GpuArg)))
+
+bool gpu_finish(Gpu *gpu); // waits until all commands are done
+
+#endif

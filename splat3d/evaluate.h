@@ -1,0 +1,31 @@
+// evaluate.h - how well a model shows views that it was not trained on: PSNR and SSIM, with the protocol beside the figures.
+#ifndef SPLATLAB_SPLAT3D_EVALUATE_H
+#define SPLATLAB_SPLAT3D_EVALUATE_H
+
+#include "splat3d/dataset.h"
+#include "splat3d/rasterizer.h"
+
+typedef struct {
+    const char *name;  // borrowed from the dataset
+    double psnr, ssim; // picture clipped to [0, 1], not rounded
+    double psnr8;      // picture rounded to 8 bit first, as from a PNG
+} ViewScore;
+
+typedef struct {
+    ViewScore *views; // owned
+    int count;
+    double psnr, ssim, psnr8; // means over the views
+} Evaluation;
+
+// Renders every held-out view (all views when none is held out) and compares. show_progress: draw the line.
+bool evaluate_model(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
+                    const RenderSettings *settings, bool show_progress, Evaluation *evaluation);
+void evaluation_destroy(Evaluation *evaluation);
+
+extern const char *const EVALUATION_PROTOCOL; // one sentence
+
+// Rows of (photo, render, error x 4) for up to max_rows held-out views spread over the set, as one picture.
+bool evaluate_contact_sheet(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
+                            const RenderSettings *settings, int max_rows, ImageF *sheet);
+
+#endif

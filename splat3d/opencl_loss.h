@@ -1,0 +1,27 @@
+// opencl_loss.h - L1 + D-SSIM of the picture on the device against an 8-bit photograph, and its gradient (fused strip kernels).
+#ifndef SPLATLAB_SPLAT3D_OPENCL_LOSS_H
+#define SPLATLAB_SPLAT3D_OPENCL_LOSS_H
+
+#include "lab/base/image.h"
+#include "splat3d/opencl_rasterizer.h"
+
+typedef struct OpenclLoss OpenclLoss;
+
+bool opencl_loss_create(Gpu *gpu, OpenclLoss **loss);
+void opencl_loss_destroy(OpenclLoss *loss); // accepts NULL
+
+// A photograph on the device as RGBA bytes (R lowest, A 255 where the file has none), 4 bytes a pixel, rows of width pixels.
+bool opencl_photo_create(Gpu *gpu, const Image8 *image, GpuBuffer **photo);
+
+// Fills picture.d_rgb with d loss / d rgb, and keeps partial sums on the device. Photo pixels with alpha are laid over background first.
+// lambda: weight of D-SSIM, 0.2.
+bool opencl_loss_run(OpenclLoss *loss, DevicePicture picture, GpuBuffer *photo, const float background[3],
+                     float lambda);
+
+// Of the last run (waits for the device): loss, L1, mean SSIM, mean squared error (for PSNR). Summed in a fixed order.
+typedef struct {
+    double total, l1, ssim, mse;
+} LossValues;
+bool opencl_loss_read(OpenclLoss *loss, LossValues *values);
+
+#endif

@@ -1,0 +1,66 @@
+// opencl_rasterizer.h - the rasterizer on an OpenCL device: project, sort, bin, blend, and all the way back.
+//
+// A frame is begun by opencl_render(), which leaves the picture on the device; opencl_backward() turns the gradient that a loss left
+// there into gradients of every parameter. Nothing is allocated in a warm step, nothing is copied on a CPU device,
+// and the result is the same, bit by bit, however many threads the device has.
+#ifndef SPLATLAB_SPLAT3D_OPENCL_RASTERIZER_H
+#define SPLATLAB_SPLAT3D_OPENCL_RASTERIZER_H
+
+#include "lab/gpu/gpu.h"
+#include "splat3d/rasterizer.h"
+
+// Gaussians on the device: parameters, their gradients, or Adam's moments (all have the same shape).
+typedef struct {
+    int count;
+    int sh_degree;
+    GpuBuffer *field[FIELD_COUNT]; // (N, width) floats; NULL above sh_degree
+} DeviceGaussians;
+
+bool device_gaussians_create(Gpu *gpu, const char *what, int count, int sh_degree, DeviceGaussians *g); // zeroed
+bool device_gaussians_resize(DeviceGaussians *g, int count);            // content is lost
+bool device_gaussians_write(DeviceGaussians *g, const Gaussians *host); // takes its count (resizes) ; same sh_degree
+bool device_gaussians_read(const DeviceGaussians *g, Gaussians *host);  // creates *host
+void device_gaussians_destroy(DeviceGaussians *g);
+
+// What density control needs to know of each splat, summed over steps (RECIPE: mean over the views that see it).
+typedef struct {
+    GpuBuffer *
+        gradient_px; // (N) floats: sum of |dL/d mean2d| in NDC units (pixel gradient x half the width, half the height)
+    GpuBuffer *seen; // (N) ints: how many views saw it
+} DensityStatistics;
+
+typedef enum { BLEND_AUTO, BLEND_CPU, BLEND_GPU } BlendKernels; // AUTO: by the device's type
+
+typedef struct OpenclRasterizer OpenclRasterizer;
+
+bool opencl_rasterizer_create(Gpu *gpu, BlendKernels blend, OpenclRasterizer **rasterizer);
+void opencl_rasterizer_destroy(OpenclRasterizer *rasterizer);          // accepts NULL
+Rasterizer *opencl_rasterizer_interface(OpenclRasterizer *rasterizer); // the table; destroying either destroys both
+
+// Forward: leaves the picture on the device. Enqueues; waits only for the depth sort.
+bool opencl_render(OpenclRasterizer *r, const DeviceGaussians *model, const Camera *camera,
+                   const RenderSettings *settings);
+
+// The picture of the last opencl_render(), and the gradient by it, to be filled before opencl_backward(): three planes r g b, each rows of
+// `stride` floats; width and height padded to multiples of TILE_SIZE. Padding pixels of the gradient must be zero.
+typedef struct {
+    int width, height; // px, of the camera
+    int stride, rows;  // padded to multiples of TILE_SIZE
+    GpuBuffer *rgb;    // (3, rows, stride)
+    GpuBuffer *d_rgb;  // (3, rows, stride)
+} DevicePicture;
+DevicePicture opencl_picture(OpenclRasterizer *r);
+bool opencl_read_picture(OpenclRasterizer *r, Picture *picture); // to the host
+
+// Backward of the last opencl_render(): *gradient gets every number written (zero for splats that were not seen). statistics may be NULL.
+bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGaussians *gradient,
+                     DensityStatistics *statistics);
+
+// Counts of the last opencl_render(): splats in view, (tile, splat) pairs.
+typedef struct {
+    int visible;
+    long pairs;
+} FrameCounts;
+FrameCounts opencl_frame_counts(const OpenclRasterizer *r);
+
+#endif
