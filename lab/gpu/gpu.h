@@ -111,4 +111,20 @@ bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int 
 
 bool gpu_finish(Gpu *gpu); // waits until all commands are done
 
+// ---- time per stage ----
+// What is launched, mapped and computed on the host from here on counts for this stage (a literal: "project"); NULL: none.
+void gpu_stage(Gpu *gpu, const char *stage);
+
+typedef struct {
+    const char *stage;
+    double device_ms; // time that kernels took on the device, by its own clock
+    double host_ms; // time between gpu_stage() calls that the host spent working itself, e.g. sorting (gpu_stage_host)
+} GpuStageTime;
+
+// Adds host time to the current stage.
+void gpu_stage_host(Gpu *gpu, double ms);
+
+// Waits for the device, then gives the sums since the last call, stages in the order of their first use; valid until the next call.
+bool gpu_stage_times(Gpu *gpu, const GpuStageTime **times, int *count);
+
 #endif
