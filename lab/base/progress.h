@@ -5,15 +5,12 @@
 #ifndef SPLATLAB_LAB_BASE_PROGRESS_H
 #define SPLATLAB_LAB_BASE_PROGRESS_H
 
-#include <stdbool.h>
-
 typedef struct {
     const char *what; // "train", "render"; borrowed
     long total;       // units of work
     long start;       // units already done when it began (a resumed run); they do not count for the ETA
     double began_s;   // clock_seconds() at the start
     double printed_s; // when the line was last printed
-    bool on_line;     // a line without newline stands on the terminal
 } Progress;
 
 Progress progress_begin(const char *what, long start, long total);
@@ -23,5 +20,8 @@ void progress_update(Progress *progress, long done, const char *note);
 
 // Ends the line.
 void progress_end(Progress *progress, const char *note);
+
+// For log.c: a line that stands on the terminal gets its newline before a message is printed.
+void progress_leave_line(void);
 
 #endif
