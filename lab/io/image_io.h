@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-// Width, height and channels after orientation, without decoding the pixels.
+// Width, height (after orientation) and channels (3 or 4, as image_load8 gives them), without decoding the pixels.
 bool image_probe(const char *path, int *width, int *height, int *channels);
 
 // As 8-bit. Channels: 3, or 4 where the file has alpha (straight); grey becomes RGB.
