@@ -48,7 +48,7 @@ static const OptionField FIELDS[] = {
      .help = "larger splats are removed, after the first opacity reset"},
     {FIELD("reset-every", OPTION_INT, reset_every), .low = 1, .high = 10000000, .unit = "steps",
      .help = "opacity reset, while density control is on"},
-    {FIELD("reset-opacity", OPTION_DOUBLE, reset_opacity), .low = 0.0001, .high = 1,
+    {FIELD("reset-opacity", OPTION_DOUBLE, reset_opacity), .low = 0.0001, .high = 0.999,
      .help = "opacities are cut to this at a reset"},
 };
 
