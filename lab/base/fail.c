@@ -36,6 +36,14 @@ bool fail_usage(const char *format, ...) {
     return false;
 }
 
+// What does not fit any more is cut off.
+static void append(const char *more) {
+    size_t length = strlen(text), room = sizeof text - 1 - length, added = strlen(more);
+    if (added > room) added = room;
+    memcpy(text + length, more, added);
+    text[length + added] = 0;
+}
+
 bool fail_context(const char *format, ...) {
     static _Thread_local char before[FAIL_TEXT_BYTES];
     memcpy(before, text, strlen(text) + 1);
@@ -43,8 +51,8 @@ bool fail_context(const char *format, ...) {
     va_start(arguments, format);
     record(format, arguments);
     va_end(arguments);
-    size_t length = strlen(text);
-    snprintf(text + length, sizeof text - length, ": %s", before);
+    append(": ");
+    append(before);
     return false;
 }
 

@@ -91,13 +91,15 @@ Image8 image8_downscale(const Image8 *image, int k) {
 
 void imagef_paste(ImageF *target, const ImageF *source, int x, int y) {
     assert(target->channels == source->channels);
-    int first = x < 0 ? -x : 0; // columns of source that fall on target: first .. end - 1
-    int end = target->width - x < source->width ? target->width - x : source->width;
+    long left = x, room = target->width - left; // long: x may be any int
+    long first = left < 0 ? -left : 0;          // columns of source that fall on target: first .. end - 1
+    long end = room < source->width ? room : source->width;
     if (first >= end) return;
     size_t channels = (size_t)source->channels;
     for (int row = 0; row < source->height; row++) {
-        if (y + row < 0 || y + row >= target->height) continue;
-        float *to = target->values + ((size_t)(y + row) * (size_t)target->width + (size_t)(x + first)) * channels;
+        long line = (long)y + row;
+        if (line < 0 || line >= target->height) continue;
+        float *to = target->values + ((size_t)line * (size_t)target->width + (size_t)(left + first)) * channels;
         const float *from = source->values + ((size_t)row * (size_t)source->width + (size_t)first) * channels;
         memcpy(to, from, (size_t)(end - first) * channels * sizeof(float));
     }

@@ -1,6 +1,7 @@
 // mem.c - aligned, zeroed memory; the one place that decides what happens when there is none.
 #include "lab/base/mem.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -45,6 +46,7 @@ char *mem_text(const char *text) {
 }
 
 char *mem_format(const char *format, ...) {
+    assert(format);
     va_list arguments;
     va_start(arguments, format);
     int length = vsnprintf(NULL, 0, format, arguments);

@@ -73,8 +73,10 @@ static bool set_double(const OptionField *field, double *value, const char *text
 }
 
 static bool set_flag(const OptionField *field, bool *value, const char *text) {
-    *value = strcmp(text, "true") == 0;
-    return *value || strcmp(text, "false") == 0 || fail_usage("--%s %s: want true or false", field->name, text);
+    bool yes = strcmp(text, "true") == 0;
+    if (!yes && strcmp(text, "false") != 0) return fail_usage("--%s %s: want true or false", field->name, text);
+    *value = yes;
+    return true;
 }
 
 static bool set_text(const OptionField *field, char *value, const char *text) {
