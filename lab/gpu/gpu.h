@@ -32,17 +32,18 @@ void gpu_close(Gpu *gpu); // accepts NULL
 
 const GpuInfo *gpu_info(const Gpu *gpu);
 
-// Where kernel files are looked for, first match: gpu_set_kernel_folder(), $SPLATLAB_KERNELS, "kernels" beside the
-// program, the installed folder (PREFIX/share/splatlab/kernels).
-void gpu_set_kernel_folder(const char *folder);
+// Where kernel files are looked for, each file by itself, first match: gpu_set_kernel_folder(), $SPLATLAB_KERNELS, "kernels"
+// beside the program, "kernels" in the working folder, the installed folder (PREFIX/share/splatlab/kernels). So an
+// overriding folder needs to hold only the files that differ.
+void gpu_set_kernel_folder(const char *folder);      // NULL: none
 bool gpu_kernel_path(const char *file, char **path); // owned by the caller
 
 // ---- programs and kernels ----
 typedef struct GpuProgram GpuProgram;
 typedef struct GpuKernel GpuKernel;
 
-// Compiles the file (a name in the kernel folder, "blend_forward_cpu.cl"). options: "-D NAME=1", or "". The kernel folder
-// is on the include path. On failure the message holds the compiler's log with file and line.
+// Compiles the file (a name in the kernel folder, "blend_forward_cpu.cl"). options: "-D NAME=1", or "". Files named by
+// #include "name" are looked up like kernel files. On failure the message holds the compiler's log with file and line.
 bool gpu_program_create(Gpu *gpu, const char *file, const char *options, GpuProgram **program);
 void gpu_program_destroy(GpuProgram *program); // accepts NULL
 
@@ -57,8 +58,8 @@ bool gpu_buffer_create(Gpu *gpu, const char *name, size_t bytes, GpuBuffer **buf
 void gpu_buffer_destroy(GpuBuffer *buffer);       // accepts NULL
 size_t gpu_buffer_bytes(const GpuBuffer *buffer); // what was asked for last; the capacity may be larger
 
-// Makes room for `bytes`. Grows by half at least, never shrinks;the content is lost when it grows. Allocates nothing in
-// a warm step.
+// Makes room for `bytes`. Grows by half at least, never shrinks; the content is lost (zeroed) when it
+// grows. Allocates nothing in a warm step.
 bool gpu_buffer_reserve(GpuBuffer *buffer, size_t bytes);
 
 // Access from the host: waits for the queue, returns a pointer to the content (on a CPU device the very memory: zero copy).
@@ -104,6 +105,14 @@ typedef struct {
     size_t group_width, group_height; // work-items of one group
 } GpuRange;
 
+static inline GpuRange gpu_range(size_t width, size_t group_width) {
+    return (GpuRange){.width = width, .group_width = group_width};
+}
+static inline GpuRange gpu_range_2d(size_t width, size_t height, size_t group_width, size_t group_height) {
+    return (GpuRange){width, height, group_width, group_height};
+}
+
+// gpu_launch(kernel, gpu_range(n, 64), gpu_buffer_arg(a), gpu_int_arg(n)): sets the arguments and enqueues.
 bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int count);
 #define gpu_launch(kernel, range, ...)                                                                                 \
     gpu_launch_args(kernel, range, (const GpuArg[]){__VA_ARGS__},                                                      \
