@@ -6,8 +6,9 @@
 
 #include <stdbool.h>
 
-// When a pixel is opaque. AFTER: blend while T >= stop before the splat (ours: at most `stop` unseen).
-// BEFORE: do not blend the splat that would bring T below stop (the original code's; leaves up to sqrt(stop) unseen).
+// When a pixel is opaque. AFTER: blend while T >= stop before the splat (ours: less than `stop` is left unseen).
+// BEFORE: do not blend the splat that would bring T below stop (the original code's; leaves up to stop / (1 - alpha_max)
+// unseen: 1e-2 with the values of kernels/shared.h).
 typedef enum { STOP_AFTER_BLEND, STOP_BEFORE_BLEND } StopRule;
 
 typedef struct {

@@ -16,8 +16,8 @@ typedef struct {
 Loss loss_l1_dssim(const ImageF *picture, const ImageF *photo, double lambda, double *d_picture);
 
 double metric_ssim(const ImageF *picture, const ImageF *photo); // [-1, 1]
-double metric_psnr(
-    const ImageF *picture,
-    const ImageF *photo); // dB: -10 log10(mean squared error), after clipping the picture to [0, 1]; 99 when identical
+
+// dB: -10 log10(mean squared error), after clipping the picture to [0, 1]; at most 99, which identical pictures have.
+double metric_psnr(const ImageF *picture, const ImageF *photo);
 
 #endif
