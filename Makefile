@@ -1,15 +1,27 @@
-# splatlab: one Makefile, no recursion. `make help` lists the targets.
+# splatlab: one Makefile for everything. `make help` lists the targets.
 #
-#   make MODE=debug|asan    other builds, each in its own build/MODE folder; the program is always ./splatlab for release,
+#   make MODE=debug|asan    other builds, each in its own folder build/MODE. The program is ./splatlab for release and
 #                           build/MODE/splatlab for the others.
 
 MODE   ?= release
 PREFIX ?= /usr/local
-BUILD  := build/$(MODE)
-PROGRAM := $(if $(filter release,$(MODE)),splatlab,$(BUILD)/splatlab)
 
-CC  ?= gcc
-CXX ?= g++
+# What `make demo` does: about two minutes on two cores.
+DEMO_SCENE      ?= studio
+DEMO_SIZE       ?= 400x300
+DEMO_VIEWS      ?= 40
+DEMO_ITERATIONS ?= 3000
+
+# Debian packages: to build, to compute (any vendor's OpenCL driver will do beside PoCL), to test.
+PACKAGES := gcc g++ make \
+            libopenimageio-dev ocl-icd-opencl-dev opencl-headers libjansson-dev libpopt-dev libmd-dev zlib1g-dev \
+            pocl-opencl-icd \
+            libcmocka-dev libgsl-dev openimageio-tools oclgrind clang-format python3
+
+# ---- the build ----
+BUILD   := build/$(MODE)
+PROGRAM := $(if $(filter release,$(MODE)),./splatlab,$(BUILD)/splatlab)
+
 MODE_FLAGS_release := -O2
 MODE_FLAGS_debug   := -O0 -g3
 MODE_FLAGS_asan    := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
@@ -17,42 +29,165 @@ MODE_FLAGS := $(MODE_FLAGS_$(MODE))
 $(if $(MODE_FLAGS),,$(error MODE=$(MODE): want release, debug or asan))
 
 # -ffp-contract=off: the compiler never fuses a * b + c on its own, so the C reference gives the same bits everywhere.
-WARNINGS := -Wall -Wextra -Werror -Wshadow -Wvla -Wwrite-strings
-COMMON   := $(MODE_FLAGS) $(WARNINGS) -ffp-contract=off -pthread -I. -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120 \
-            -DSPLATLAB_INSTALLED_KERNELS='"$(PREFIX)/share/splatlab/kernels"'
-CFLAGS   += -std=c17 $(COMMON) -Wstrict-prototypes -Wmissing-prototypes
-CXXFLAGS += -std=c++17 $(COMMON)
-LDLIBS   += -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz -lstdc++ -lm
+# CFLAGS and CXXFLAGS are left to the person who builds; they come last.
+CC        ?= gcc
+CXX       ?= g++
+WARNINGS  := -Wall -Wextra -Werror -Wshadow -Wvla -Wwrite-strings
+COMMON    := $(MODE_FLAGS) $(WARNINGS) -ffp-contract=off -pthread -I. -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120 \
+             -DSPLATLAB_INSTALLED_KERNELS='"$(PREFIX)/share/splatlab/kernels"'
+C_FLAGS   := -std=c17 $(COMMON) -Wstrict-prototypes -Wmissing-prototypes $(CFLAGS)
+CXX_FLAGS := -std=c++17 $(COMMON) $(CXXFLAGS)
+LINK       = $(CC) $(MODE_FLAGS) -pthread $(LDFLAGS) -o $@ $^
+LIBRARIES := -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz -lstdc++ -lm
+TEST_LIBRARIES := -lcmocka -lgsl -lgslcblas
+
+objects_of = $(patsubst %,$(BUILD)/%.o,$(1))
 
 SOURCES := $(wildcard lab/base/*.c lab/io/*.c lab/io/*.cpp lab/gpu/*.c splat2d/*.c splat3d/*.c lab/app/*.c)
-OBJECTS := $(patsubst %,$(BUILD)/%.o,$(SOURCES))
-LIBRARY_OBJECTS := $(filter-out $(BUILD)/lab/app/main.c.o,$(OBJECTS))
+OBJECTS := $(call objects_of,$(SOURCES))
+LIBRARY_OBJECTS := $(filter-out $(call objects_of,lab/app/main.c),$(OBJECTS))
 
 # tests/FOLDER/test_NAME.c: one cmocka program each, linked with everything but main; helpers stand in tests/support.
-TEST_SOURCES := $(wildcard tests/*/test_*.c)
-TEST_SUPPORT := $(patsubst %,$(BUILD)/%.o,$(wildcard tests/support/*.c))
-TESTS        := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TEST_SOURCES))
+TEST_SOURCES    := $(wildcard tests/*/test_*.c)
+TESTS           := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
+SUPPORT_SOURCES := $(wildcard tests/support/*.c)
+KERNELS_COMPILE := $(BUILD)/tests/lint/kernels_compile
+
+ALL_SOURCES := $(SOURCES) $(TEST_SOURCES) $(SUPPORT_SOURCES) tests/lint/kernels_compile.c
+ALL_OBJECTS := $(call objects_of,$(ALL_SOURCES))
 
 .PHONY: all
-all: $(PROGRAM) compile_commands.json
+all: $(PROGRAM) compile_commands.json ## build ./splatlab
 
 $(PROGRAM): $(OBJECTS)
-	$(CC) $(MODE_FLAGS) -pthread -o $@ $^ $(LDLIBS)
+	$(LINK) $(LIBRARIES)
 
-$(BUILD)/%.c.o: %.c
+$(BUILD)/%.c.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) $(C_FLAGS) -MMD -MP -c -o $@ $<
 
-$(BUILD)/%.cpp.o: %.cpp
+$(BUILD)/%.cpp.o: %.cpp $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+	$(CXX) $(CXX_FLAGS) -MMD -MP -c -o $@ $<
 
-$(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(TEST_SUPPORT) $(LIBRARY_OBJECTS)
-	$(CC) $(MODE_FLAGS) -pthread -o $@ $^ -lcmocka -lgsl -lgslcblas $(LDLIBS)
+$(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(call objects_of,$(SUPPORT_SOURCES)) $(LIBRARY_OBJECTS)
+	$(LINK) $(TEST_LIBRARIES) $(LIBRARIES)
 
 # splat2d stands alone: no OpenCL, no window, no image library. This link proves it.
-$(BUILD)/tests/splat2d/%: $(BUILD)/tests/splat2d/%.c.o $(patsubst %,$(BUILD)/%.o,$(wildcard lab/base/*.c splat2d/*.c))
-	$(CC) $(MODE_FLAGS) -pthread -o $@ $^ -lcmocka -lgsl -lgslcblas -lm
+$(BUILD)/tests/splat2d/%: $(BUILD)/tests/splat2d/%.c.o \
+                          $(call objects_of,$(wildcard lab/base/*.c splat2d/*.c) $(SUPPORT_SOURCES))
+	$(LINK) $(TEST_LIBRARIES) -lm
 
--include $(shell [ -d build ] && find build -name '*.d')
+# The kernel part of lint needs the device and no more: it runs while upper floors are still being written.
+$(KERNELS_COMPILE): $(KERNELS_COMPILE).c.o $(call objects_of,$(wildcard lab/base/*.c lab/gpu/*.c) lab/io/file.c)
+	$(LINK) $(LIBRARIES)
+
+# Other flags (or another PREFIX) than last time: everything is built anew.
+$(BUILD)/flags: export FLAGS := $(CC) $(C_FLAGS) / $(CXX) $(CXX_FLAGS)
+$(BUILD)/flags: always
+	@mkdir -p $(@D)
+	@echo "$$FLAGS" | cmp -s - $@ || echo "$$FLAGS" >$@
+.PHONY: always
+
+# For editors: how each file is compiled.
+command_for = $(if $(filter %.cpp,$(1)),$(CXX) $(CXX_FLAGS),$(CC) $(C_FLAGS)) -c $(1)
+compile_commands.json: Makefile $(ALL_SOURCES)
+	@$(file >$@.tmp-make)$(foreach source,$(ALL_SOURCES),$(file >>$@.tmp-make,{"directory": "$(CURDIR)",\
+	    "file": "$(source)", "command": "$(subst ",\",$(call command_for,$(source)))"}))
+	@{ echo '['; sed '$$!s/$$/,/' $@.tmp-make; echo ']'; } >$@ && rm $@.tmp-make
+
+-include $(ALL_OBJECTS:.o=.d)
 .SECONDARY:
+
+# ---- what stands before it ----
+define INSTALL_PACKAGES
+missing=
+for p in $(PACKAGES); do
+    dpkg-query -W -f='$${db:Status-Status} ' $$p 2>/dev/null | grep -qw installed || missing="$$missing $$p"
+done
+[ -n "$$missing" ] || exit 0
+if ! command -v apt-get >/dev/null; then
+    echo "deps: there is no apt-get here. Please install what these Debian packages hold:$$missing" >&2
+    exit 1
+fi
+sudo=
+if [ "$$(id -u)" != 0 ]; then
+    sudo=sudo
+    if ! command -v sudo >/dev/null; then
+        echo "deps: please run as root: apt-get install$$missing" >&2
+        exit 1
+    fi
+fi
+echo "deps: installing$$missing"
+$$sudo apt-get update -q && $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $$missing
+endef
+export INSTALL_PACKAGES
+
+.PHONY: deps
+deps: ## install the Debian packages that are missing
+	@sh -c "$$INSTALL_PACKAGES"
+
+# `make deps all` and `make demo` compile nothing before the packages are there.
+ifneq ($(filter deps demo,$(MAKECMDGOALS)),)
+$(ALL_OBJECTS): | deps
+endif
+
+# ---- to look at ----
+DEMO_DATA := demo/$(DEMO_SCENE)-$(DEMO_SIZE)-$(DEMO_VIEWS)
+
+.PHONY: demo
+demo: deps all ## make a sample scene, train on it, show the result
+	@[ -e $(DEMO_DATA)/transforms.json ] || \
+	    $(PROGRAM) scene $(DEMO_SCENE) -o $(DEMO_DATA) --size $(DEMO_SIZE) --views $(DEMO_VIEWS)
+	@rm -rf demo/run
+	$(PROGRAM) train $(DEMO_DATA) -o demo/run --iterations $(DEMO_ITERATIONS)
+	$(PROGRAM) eval demo/run --scene $(DEMO_DATA) --contact-sheet demo/contact_sheet.png
+	@echo "Photo, render and error of held-out views: $(CURDIR)/demo/contact_sheet.png"
+
+# ---- to check ----
+# PoCL and LLVM keep some memory until the program ends; tests/long/leaks.txt names them, all else must be freed.
+ifeq ($(MODE),asan)
+export LSAN_OPTIONS := suppressions=tests/long/leaks.txt:print_suppressions=0
+export UBSAN_OPTIONS := print_stacktrace=1
+endif
+
+.PHONY: test
+test: all $(TESTS) $(KERNELS_COMPILE) ## run every test (minutes)
+	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) tests/run $(TESTS) tests/lint/selftest.py
+
+.PHONY: test-long
+test-long: all ## what takes longer: Oclgrind, resume, thread count, then all tests under ASan and UBSan
+	@SPLATLAB=$(PROGRAM) tests/run -t 1200 $(wildcard tests/long/check_*)
+	@$(MAKE) --no-print-directory MODE=asan test
+
+.PHONY: lint
+lint: $(KERNELS_COMPILE) ## check the house rules: floors, sizes, names, format; kernels compile
+	@status=0; python3 tests/lint/lint.py || status=1; $(KERNELS_COMPILE) || status=1; exit $$status
+
+FORMATTED := $(wildcard $(foreach folder,kernels lab/* splat2d splat3d exercises/* tests/*,\
+                 $(folder)/*.c $(folder)/*.h $(folder)/*.cpp $(folder)/*.cl))
+
+.PHONY: format
+format: ## bring all code into the form of .clang-format
+	clang-format -i $(FORMATTED)
+
+# ---- to use elsewhere ----
+.PHONY: install
+install: all ## install under PREFIX (/usr/local); DESTDIR is honoured
+	install -D -m 755 $(PROGRAM) $(DESTDIR)$(PREFIX)/bin/splatlab
+	install -d $(DESTDIR)$(PREFIX)/share/splatlab/kernels
+	install -m 644 $(wildcard kernels/*) $(DESTDIR)$(PREFIX)/share/splatlab/kernels
+	install -D -m 644 LICENSE $(DESTDIR)$(PREFIX)/share/doc/splatlab/LICENSE
+
+.PHONY: uninstall
+uninstall: ## remove what install put there
+	rm -rf $(DESTDIR)$(PREFIX)/bin/splatlab $(DESTDIR)$(PREFIX)/share/splatlab $(DESTDIR)$(PREFIX)/share/doc/splatlab
+
+.PHONY: clean
+clean: ## remove everything that was built, and the demo
+	rm -rf build splatlab compile_commands.json demo
+
+.PHONY: help
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-10s %s\n", $$1, $$2}' Makefile
+	@echo "MODE=release|debug|asan chooses the build; PREFIX=$(PREFIX) where install puts it."
