@@ -1,0 +1,267 @@
+// The trainer on a scene made in memory: three small pictures of known splats.
+
+#include "lab/base/fail.h"
+#include "lab/base/mem.h"
+#include "lab/base/rng.h"
+#include "splat2d/adam.h"
+#include "splat2d/loss.h"
+#include "splat3d/first_splats.h"
+#include "splat3d/reference.h"
+#include "splat3d/schedule.h"
+#include "splat3d/trainer.h"
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { VIEWS = 3, WIDTH = 45, HEIGHT = 34, TRUTH = 40, POINTS = 25 };
+
+static Gpu *gpu;
+
+static void check(bool done) {
+    if (!done) fail_msg("%s", fail_text());
+}
+
+static int open_device(void **state) {
+    (void)state;
+    if (!gpu_open("auto", &gpu)) print_error("%s\n", fail_text());
+    return gpu ? 0 : -1;
+}
+
+static int close_device(void **state) {
+    (void)state;
+    gpu_close(gpu);
+    return 0;
+}
+
+// Coloured splats in a box round the origin.
+static Gaussians truth_splats(void) {
+    Gaussians g = gaussians_create(TRUTH, 1);
+    for (int i = 0; i < TRUTH; i++) {
+        Rng rng = rng_at(11, RNG_TEST, (uint32_t)i, 0);
+        for (int a = 0; a < 3; a++) {
+            gaussians_at(&g, FIELD_MEAN, i)[a] = (float)rng_range(&rng, -1, 1);
+            gaussians_at(&g, FIELD_LOG_SCALE, i)[a] = (float)rng_range(&rng, log(0.1), log(0.4));
+            gaussians_at(&g, FIELD_SH0, i)[a] = (float)rng_range(&rng, -1.5, 1.5);
+        }
+        for (int a = 0; a < 4; a++) gaussians_at(&g, FIELD_QUAT, i)[a] = (float)rng_normal(&rng);
+        *gaussians_at(&g, FIELD_OPACITY_LOGIT, i) = (float)rng_range(&rng, 0, 3);
+    }
+    return g;
+}
+
+// A data set whose photographs the reference took of the true splats.
+static Dataset make_dataset(void) {
+    Dataset d = {
+        .path = mem_text("memory"), .kind = "made in memory", .downscale = 1, .view_count = VIEWS, .extent = 3};
+    d.views = mem_alloc(VIEWS, sizeof *d.views);
+    Gaussians truth = truth_splats();
+    Rasterizer *reference = reference_rasterizer_create();
+    RenderSettings settings = render_settings_default();
+    for (int v = 0; v < VIEWS; v++) {
+        View *view = &d.views[v];
+        Vec3 eye = vec3(4 * cos(2.0 * v), 0.5, 4 * sin(2.0 * v));
+        *view = (View){.name = mem_format("view_%d", v), .path = mem_format("memory/view_%d", v), .channels = 3};
+        view->camera = camera_look_at(eye, vec3(0, 0, 0), vec3(0, 1, 0), 0.9, WIDTH, HEIGHT);
+        Picture picture;
+        check(rasterizer_render(reference, &truth, &view->camera, &settings, &picture));
+        view->image = image8_from_float(&picture.rgb);
+        picture_destroy(&picture);
+    }
+    d.points = points_create(POINTS);
+    for (int i = 0; i < POINTS; i++)
+        for (int a = 0; a < 3; a++) {
+            d.points.xyz[3 * i + a] = gaussians_at(&truth, FIELD_MEAN, i)[a] + 0.05;
+            d.points.rgb[3 * i + a] = (uint8_t)(40 * a + 5 * i);
+        }
+    rasterizer_destroy(reference);
+    gaussians_destroy(&truth);
+    return d;
+}
+
+static TrainOptions small_options(int iterations) {
+    TrainOptions o = train_options_default();
+    o.iterations = iterations;
+    o.seed = 3;
+    o.sh_degree = 1;
+    o.sh_every = 4; // the second degree comes into play within the trace
+    return o;
+}
+
+// ---- the trace: the same ten steps, by the double-precision reference ----
+
+typedef struct {
+    TrainOptions options;
+    Dataset dataset;
+    ImageF photos[VIEWS];
+    GaussiansD model, m, v;
+    int order[VIEWS], epoch;
+} ReferenceTrainer;
+
+static double reference_step(ReferenceTrainer *t, int step) {
+    const Camera *camera;
+    int view = schedule_view(&t->options, step, VIEWS, t->order, &t->epoch);
+    RenderSettings settings = render_settings_default();
+    settings.sh_degree = schedule_sh_degree(&t->options, step);
+    camera = &t->dataset.views[view].camera;
+    PictureD picture;
+    reference_render_forward(&t->model, camera, &settings, &picture);
+    ImageF rounded = imagef_create(WIDTH, HEIGHT, 3);
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++) rounded.values[i] = (float)picture.rgb[i];
+    double *d_rgb = mem_alloc(WIDTH * HEIGHT * 3, sizeof *d_rgb);
+    Loss loss = loss_l1_dssim(&rounded, &t->photos[view], t->options.dssim_weight, d_rgb);
+    GaussiansD d_model;
+    reference_render_backward(&t->model, camera, &settings, d_rgb, &d_model);
+    float rate[FIELD_COUNT];
+    schedule_learning_rates(&t->options, step, t->dataset.extent, rate);
+    for (GaussianFieldId f = 0; f < FIELD_COUNT; f++) {
+        if (!t->model.field[f] || GAUSSIAN_FIELDS[f].sh_degree > settings.sh_degree) continue;
+        AdamRule rule = adam_rule_default(rate[f]);
+        adam_step(&rule, step, t->model.count * GAUSSIAN_FIELDS[f].width, d_model.field[f], t->model.field[f],
+                  t->m.field[f], t->v.field[f]);
+    }
+    for (int i = 0; i < t->model.count; i++) {
+        double *q = t->model.field[FIELD_QUAT] + 4 * i;
+        double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        for (int a = 0; a < 4; a++) q[a] /= length;
+    }
+    gaussiansd_destroy(&d_model);
+    pictured_destroy(&picture);
+    imagef_destroy(&rounded);
+    mem_free(d_rgb);
+    return loss.total;
+}
+
+static void ten_steps_lose_what_the_reference_loses(void **state) {
+    (void)state;
+    enum { STEPS = 10 };
+    TrainOptions o = small_options(STEPS);
+    o.densify_until = 0;
+    Dataset d = make_dataset();
+    ReferenceTrainer r = {.options = o, .dataset = make_dataset(), .epoch = -1};
+    for (int v = 0; v < VIEWS; v++) r.photos[v] = imagef_from_8(&r.dataset.views[v].image);
+    Gaussians first = first_splats_from_points(&r.dataset.points, o.sh_degree, o.init_opacity);
+    r.model = gaussiansd_from(&first);
+    r.m = gaussiansd_create(first.count, first.sh_degree);
+    r.v = gaussiansd_create(first.count, first.sh_degree);
+    Trainer *trainer;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+    double first_loss = 0, last_loss = 0;
+    for (int step = 1; step <= STEPS; step++) {
+        StepReport report;
+        double expected = reference_step(&r, step);
+        check(trainer_step(trainer, &report));
+        support_near(report.loss.total, expected, 2e-5 * expected, "loss");
+        if (step == 1) first_loss = expected;
+        last_loss = expected;
+    }
+    assert_true(last_loss < first_loss);
+    trainer_destroy(trainer);
+    for (int v = 0; v < VIEWS; v++) imagef_destroy(&r.photos[v]);
+    gaussiansd_destroy(&r.model);
+    gaussiansd_destroy(&r.m);
+    gaussiansd_destroy(&r.v);
+    gaussians_destroy(&first);
+    dataset_destroy(&r.dataset);
+    dataset_destroy(&d);
+}
+
+// ---- determinism ----
+
+// Density control every 5 steps from the 11th on, resets every 20: all that changes the model happens within 60 steps.
+static TrainOptions busy_options(void) {
+    TrainOptions o = small_options(60);
+    o.densify_from = 10, o.densify_every = 5, o.densify_until = 0.9, o.reset_every = 20, o.densify_gradient = 5e-5;
+    strcpy(o.background, "random");
+    return o;
+}
+
+static TrainingState train_steps(const TrainOptions *o, const TrainingState *from, int until) {
+    Dataset d = make_dataset();
+    Trainer *trainer;
+    TrainingState state;
+    check(trainer_create(gpu, BLEND_AUTO, o, &d, &trainer));
+    if (from) check(trainer_set_state(trainer, from));
+    while (trainer_steps_done(trainer) < until) {
+        StepReport report;
+        check(trainer_step(trainer, &report));
+    }
+    check(trainer_get_state(trainer, &state));
+    trainer_destroy(trainer);
+    dataset_destroy(&d);
+    return state;
+}
+
+static void assert_same_model(const TrainingState *a, const TrainingState *b) {
+    assert_int_equal(a->model.count, b->model.count);
+    for (GaussianFieldId f = 0; f < FIELD_COUNT; f++)
+        if (a->model.field[f]) {
+            size_t bytes = (size_t)a->model.count * (size_t)GAUSSIAN_FIELDS[f].width * sizeof(float);
+            assert_memory_equal(a->model.field[f], b->model.field[f], bytes);
+            assert_memory_equal(a->v.field[f], b->v.field[f], bytes);
+        }
+    assert_memory_equal(a->id, b->id, (size_t)a->model.count * sizeof *a->id);
+}
+
+static void the_same_seed_gives_the_same_bytes_and_another_does_not(void **state) {
+    (void)state;
+    TrainOptions o = busy_options();
+    TrainingState a = train_steps(&o, NULL, 60), b = train_steps(&o, NULL, 60);
+    assert_true(a.next_id > POINTS); // density control has grown something
+    assert_same_model(&a, &b);
+    o.seed++;
+    TrainingState c = train_steps(&o, NULL, 60);
+    assert_true(a.model.count != c.model.count ||
+                memcmp(a.model.field[0], c.model.field[0], (size_t)a.model.count * 12) != 0);
+    training_state_destroy(&a);
+    training_state_destroy(&b);
+    training_state_destroy(&c);
+}
+
+static void an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one(void **state) {
+    (void)state;
+    TrainOptions o = busy_options();
+    TrainingState whole = train_steps(&o, NULL, 60);
+    const int stops[] = {1, 15, 17, 20, 59}; // at the start, at and between density control, at a reset, at the end
+    for (size_t i = 0; i < sizeof stops / sizeof stops[0]; i++) {
+        const char *path = support_path(support_scratch(), "checkpoint.bin");
+        TrainingState half = train_steps(&o, NULL, stops[i]), loaded;
+        check(training_state_save(&half, path) && training_state_load(path, &loaded));
+        TrainingState resumed = train_steps(&o, &loaded, 60);
+        assert_same_model(&resumed, &whole);
+        training_state_destroy(&half);
+        training_state_destroy(&loaded);
+        training_state_destroy(&resumed);
+    }
+    training_state_destroy(&whole);
+}
+
+// ---- what goes wrong is named ----
+
+static void a_number_that_is_not_finite_stops_training_by_name(void **state) {
+    (void)state;
+    TrainOptions o = small_options(10);
+    Dataset d = make_dataset();
+    Trainer *trainer;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+    TrainingState s;
+    check(trainer_get_state(trainer, &s));
+    gaussians_at(&s.model, FIELD_SH0, 7)[1] = NAN;
+    check(trainer_set_state(trainer, &s));
+    StepReport report;
+    assert_false(trainer_step(trainer, &report));
+    assert_non_null(strstr(fail_text(), "step 1, view view_"));
+    training_state_destroy(&s);
+    trainer_destroy(trainer);
+    dataset_destroy(&d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ten_steps_lose_what_the_reference_loses),
+        cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_does_not),
+        cmocka_unit_test(an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one),
+        cmocka_unit_test(a_number_that_is_not_finite_stops_training_by_name),
+    };
+    return cmocka_run_group_tests_name("trainer", tests, open_device, close_device);
+}
