@@ -17,14 +17,17 @@ typedef struct {
     double psnr, ssim, psnr8; // means over the views
 } Evaluation;
 
-// Renders every held-out view (all views when none is held out) and compares. show_progress: draw the line.
+// Renders every held-out view (all views when none is held out) and compares. A photograph that is not in memory is
+// read for as long as it is needed, so a dataset without images will do. Photographs with alpha are laid over
+// settings->background. show_progress: draw the line.
 bool evaluate_model(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
                     const RenderSettings *settings, bool show_progress, Evaluation *evaluation);
 void evaluation_destroy(Evaluation *evaluation);
 
 extern const char *const EVALUATION_PROTOCOL; // one sentence
 
-// Rows of (photo, render, error x 4) for up to max_rows held-out views spread over the set, as one picture.
+// Rows of (photo, render, error x 4) for up to max_rows held-out views spread over the set, as one picture. *sheet is
+// owned by the caller.
 bool evaluate_contact_sheet(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
                             const RenderSettings *settings, int max_rows, ImageF *sheet);
 
