@@ -1,3 +1,4 @@
+// file.c - whole files in and out, and the few questions about folders that the program asks.
 #include "lab/io/file.h"
 
 #include "lab/base/fail.h"
@@ -154,21 +155,6 @@ bool file_write(const char *path, const void *data, size_t size) {
     if (!file_begin(&writer, path)) return false;
     fwrite(data, 1, size, writer.stream);
     return file_commit(&writer);
-}
-
-char *file_temporary_name(const char *path) {
-    const char *name = strrchr(path, '/');
-    name = name ? name + 1 : path;
-    const char *dot = strrchr(name, '.');
-    const char *ending = dot ? dot : "";
-    int stem = (int)(strlen(path) - strlen(ending));
-    return mem_format("%.*s.tmp-%ld%s", stem, path, (long)getpid(), ending);
-}
-
-bool file_publish(const char *temporary, const char *path) {
-    bool ok = sync_and_rename(temporary, path);
-    if (!ok) unlink(temporary);
-    return ok;
 }
 
 // ---- folders and names ----

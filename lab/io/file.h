@@ -26,11 +26,6 @@ void file_abandon(FileWriter *writer); // removes the temporary file; accepts a 
 // The three in one.
 bool file_write(const char *path, const void *data, size_t size);
 
-// For a library that wants a path of its own (an image writer): a temporary name beside the target, kept ending
-// (".png"); then file_publish() syncs and renames it to the target.
-char *file_temporary_name(const char *path); // owned by the caller
-bool file_publish(const char *temporary, const char *path);
-
 bool file_exists(const char *path);
 bool file_is_folder(const char *path);
 bool file_make_folder(const char *path);    // with its parents; fine if it is already there

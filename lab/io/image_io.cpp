@@ -1,15 +1,18 @@
-#include "lab/io/image_io.h"
-
+// image_io.cpp - the only file that knows OpenImageIO.
 extern "C" {
+#include "lab/io/image_io.h"
 #include "lab/base/fail.h"
+#include "lab/base/image.h"
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
+#include "lab/io/png_check.h"
 }
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <memory>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 // How alpha is kept. We hold it straight. OpenImageIO by itself multiplies colour by alpha when it reads a PNG, which at
@@ -45,6 +48,7 @@ bool open_source(const char *path, Source &source) {
     (void)single_threaded;
     if (!file_exists(path)) return fail("cannot read image %s: no such file; is the path right?", path);
     if (file_is_folder(path)) return fail("cannot read image %s: it is a folder", path);
+    if (!png_check(path)) return false;
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     source.input = OIIO::ImageInput::open(path, &config);
@@ -106,9 +110,12 @@ size_t upright_index(int orientation, int x, int y, int w, int h) {
 template <typename T> bool read_pixels(const char *path, Source &source, OIIO::TypeDesc type, std::vector<T> &pixels) {
     int channels = source.spec.nchannels;
     pixels.resize((size_t)source.width * source.height * channels);
-    if (!source.input->read_image(0, 0, 0, channels, type, pixels.data()))
-        return fail("cannot read image %s: %s; is the file complete?", path,
-                    one_line(source.input->geterror()).c_str());
+    bool ok = source.input->read_image(0, 0, 0, channels, type, pixels.data());
+    std::string reason = source.input->geterror();
+    // JPEG and TIFF that were cut off are filled up and reported as a mere warning. Stray bytes between the parts of a
+    // JPEG, which some cameras leave, are harmless.
+    if (!ok || (!reason.empty() && reason.find("extraneous bytes") == std::string::npos))
+        return fail("cannot read image %s: %s; is the file complete?", path, one_line(reason).c_str());
     return true;
 }
 
@@ -151,39 +158,22 @@ bool is_float_format(const char *path) {
     return is_exr(path) || file_has_ending(path, ".tif") || file_has_ending(path, ".tiff");
 }
 
-bool write_pixels(const char *path, const char *temporary, OIIO::ImageSpec &spec, OIIO::TypeDesc type,
-                  const void *pixels) {
-    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary);
-    if (!output) return fail("cannot write image %s: %s", path, one_line(OIIO::geterror()).c_str());
-    spec.attribute("oiio:UnassociatedAlpha", is_exr(path) ? 0 : 1);
-    spec.attribute("DateTime", "2000:01:01 00:00:00"); // else EXR holds the time of writing: same pixels, same bytes
-    if (is_jpeg(path)) spec.attribute("CompressionQuality", jpeg_quality);
-    bool ok = output->open(temporary, spec) && output->write_image(type, pixels);
-    std::string reason = ok ? "" : output->geterror();
-    if (!output->close() && ok) {
-        ok = false;
-        reason = output->geterror();
-    }
-    return ok || fail("cannot write image %s: %s; is there space, and may the folder be written?", path,
-                      one_line(reason).c_str());
-}
-
+// The file is made in memory and written by file_write(): the image libraries overlook a full disk (PNG) or end the
+// program (JPEG).
 bool save(const char *path, int width, int height, int channels, OIIO::TypeDesc type, const void *pixels) {
     if (channels == 4 && is_jpeg(path))
         return fail("cannot write image %s: JPEG has no alpha; choose a name that ends in .png", path);
-    char *folder = file_folder_of(path);
-    bool ok = file_can_write_in(folder); // says more clearly than OpenImageIO what is wrong
-    mem_free(folder);
-    if (!ok) return fail_context("cannot write image %s", path);
-    char *temporary = file_temporary_name(path);
     OIIO::ImageSpec spec(width, height, channels, type);
-    ok = write_pixels(path, temporary, spec, type, pixels);
-    if (!ok)
-        unlink(temporary);
-    else
-        ok = file_publish(temporary, path);
-    mem_free(temporary);
-    return ok;
+    spec.attribute("oiio:UnassociatedAlpha", is_exr(path) ? 0 : 1);
+    spec.attribute("DateTime", "2000:01:01 00:00:00"); // else EXR holds the time of writing: same pixels, same bytes
+    if (is_jpeg(path)) spec.attribute("CompressionQuality", jpeg_quality);
+
+    OIIO::Filesystem::IOVecOutput memory;
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path, &memory);
+    if (!output) return fail("cannot write image %s: %s", path, one_line(OIIO::geterror()).c_str());
+    if (!output->open(path, spec) || !output->write_image(type, pixels) || !output->close())
+        return fail("cannot write image %s: %s", path, one_line(output->geterror()).c_str());
+    return file_write(path, memory.buffer().data(), memory.buffer().size());
 }
 
 bool save_float(const char *path, const ImageF *image) {

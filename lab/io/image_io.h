@@ -1,7 +1,8 @@
 // image_io.h - pictures on disk, read and written by OpenImageIO; image_io.cpp is the only file that knows it.
 //
 // Reads what OpenImageIO reads (PNG, JPEG, EXR, TIFF, ...): 8- and 16-bit and float, grey to RGBA; EXIF orientation
-// is applied, so that the picture stands upright. Writes by the ending of the path, through a temporary file.
+// is applied, so that the picture stands upright. Writes by the ending of the path, atomically; the same
+// pixels give the same bytes.
 #ifndef SPLATLAB_LAB_IO_IMAGE_IO_H
 #define SPLATLAB_LAB_IO_IMAGE_IO_H
 

@@ -1,3 +1,4 @@
+// json_io.c - Jansson, with errors that say where.
 #include "lab/io/json_io.h"
 
 #include "lab/base/fail.h"
@@ -31,6 +32,14 @@ static const char *type_name(const json_t *value) {
 
 // ---- files ----
 
+// What wrote NaN or Infinity into a file had a fault of its own; the parser only says "invalid token".
+static const char *parse_hint(const json_error_t *error, const char *rest) {
+    bool not_finite = strstr(error->text, "NaN") || strstr(error->text, "nan") || strstr(error->text, "Inf") ||
+                      strstr(error->text, "overflow") || strncmp(rest, "Inf", 3) == 0;
+    return not_finite ? "JSON knows only finite numbers: what wrote the file had none to write"
+                      : "is the file complete, and is it JSON?";
+}
+
 bool json_read(const char *path, json_t **root) {
     char *text;
     size_t size;
@@ -39,13 +48,13 @@ bool json_read(const char *path, json_t **root) {
     size_t start = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; // a byte order mark, as Windows writes it
     json_error_t error;
     *root = json_loadb(text + start, size - start, JSON_REJECT_DUPLICATES, &error);
+    if (!*root) {
+        size_t position = start + (error.position > 0 ? (size_t)error.position : 0);
+        fail("cannot read %s, line %d, column %d: %s; %s", path, error.line, error.column, error.text,
+             parse_hint(&error, text + (position < size ? position : size)));
+    }
     mem_free(text);
-    if (*root) return true;
-    const char *hint = "is the file complete, and is it JSON?";
-    if (strstr(error.text, "NaN") || strstr(error.text, "Inf") || strstr(error.text, "nan") ||
-        strstr(error.text, "overflow"))
-        hint = "JSON knows only finite numbers: what wrote the file had none to write";
-    return fail("cannot read %s, line %d, column %d: %s; %s", path, error.line, error.column, error.text, hint);
+    return *root != NULL;
 }
 
 bool json_write(const char *path, const json_t *root) {
