@@ -60,7 +60,7 @@ CASES = [
     ("code that is not formatted", {"lab/io/h.c": "int  x;\n"}, "lab/io/h.c:1", "format"),
     ("a kernel that is not formatted", {"kernels/k.cl": "// k.cl - k.\nconstant int  x = 1;\n"}, "kernels/k.cl:2", "format"),
     ("a kernel that does not compile", {"kernels/double_it.cl": "// double_it.cl - twice.\n__kernel void double_it(float3) { x }\n"},
-     "kernels/double_it.cl:2", "error"),
+     "kernels/double_it.cl:2", "undeclared"),
     ("a kernel with a warning", {"kernels/double_it.cl": "// double_it.cl - twice.\n"
                                  "__kernel void double_it(__global int *x) {\n    if (x[0] = 1) x[1] = 2;\n}\n"},
      "kernels/double_it.cl:3", "paren"),
