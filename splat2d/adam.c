@@ -1,3 +1,4 @@
+// adam.c - the step, with the correction of its slow start.
 #include "splat2d/adam.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@ AdamRule adam_rule_default(double learning_rate) {
     return (AdamRule){.learning_rate = learning_rate, .beta1 = 0.9, .beta2 = 0.999, .epsilon = 1e-15};
 }
 
-// m and v begin at zero and are therefore too small at first, by the factor 1 - beta^step: dividing by it corrects them.
+// m and v begin at zero and are therefore too small at first, by the factor 1 - beta^step; dividing corrects that.
 void adam_step(const AdamRule *rule, int step, int count, const double *gradient, double *value, double *m, double *v) {
     double m_part = 1 - pow(rule->beta1, step);
     double v_part = 1 - pow(rule->beta2, step);

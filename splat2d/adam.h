@@ -1,4 +1,5 @@
-// adam.h - the Adam optimiser (Kingma & Ba 2015, algorithm 1) on an array of doubles; the reference for kernels/adam.cl.
+// adam.h - the Adam optimiser (Kingma & Ba 2015, algorithm 1) on an array of doubles; the reference for
+// kernels/adam.cl.
 #ifndef SPLATLAB_SPLAT2D_ADAM_H
 #define SPLATLAB_SPLAT2D_ADAM_H
 

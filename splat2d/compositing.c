@@ -1,3 +1,4 @@
+// compositing.c - one pixel from front to back.
 #include "splat2d/compositing.h"
 
 #include "kernels/shared.h"

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 
 // When a pixel is opaque. AFTER: blend while T >= stop before the splat (ours: less than `stop` is left unseen).
-// BEFORE: do not blend the splat that would bring T below stop (the original code's; leaves up to stop / (1 - alpha_max)
-// unseen: 1e-2 with the values of kernels/shared.h).
+// BEFORE: do not blend the splat that would bring T below stop (the original code's; leaves up to
+// stop / (1 - alpha_max) unseen: 1e-2 with the values of kernels/shared.h).
 typedef enum { STOP_AFTER_BLEND, STOP_BEFORE_BLEND } StopRule;
 
 typedef struct {
@@ -29,7 +29,8 @@ typedef struct {
 
 Composite composite_begin(void);
 
-// Blends one splat of that alpha and colour behind what is there; returns its weight T alpha (0 when it was skipped or the pixel is opaque).
+// Blends one splat of that alpha and colour behind what is there; returns its weight T alpha (0 when it was skipped or
+// the pixel is opaque).
 double composite_blend(Composite *pixel, const CompositeRule *rule, double alpha, const double rgb[3]);
 
 // Adds T_end * background.

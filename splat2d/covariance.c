@@ -1,3 +1,4 @@
+// covariance.c - the 2x2 algebra of one blob.
 #include "splat2d/covariance.h"
 
 #include <math.h>
@@ -41,8 +42,8 @@ double conic_mahalanobis2(Sym2 conic, double dx, double dy) {
     return conic.xx * dx * dx + 2 * conic.xy * dx * dy + conic.yy * dy * dy;
 }
 
-// The matrix is mean * I plus a part with eigenvalues +-radius: Mohr's circle. Its axis stands at half the angle of the point
-// (xx - yy, 2 xy) on that circle.
+// The matrix is mean * I plus a part with eigenvalues +-radius: Mohr's circle. Its axis stands at half the angle of
+// the point (xx - yy, 2 xy) on that circle.
 Eigen2 sym2_eigen(Sym2 a) {
     double mean = (a.xx + a.yy) / 2;
     double radius = hypot((a.xx - a.yy) / 2, a.xy);

@@ -1,7 +1,7 @@
 // covariance.h - the shape of a 2-D Gaussian: Sigma = R(theta) diag(sx^2, sy^2) R(theta)^T, its inverse and its axes.
 //
-// A symmetric 2x2 matrix is stored as three numbers xx, xy, yy; a gradient with respect to it is the derivative by those
-// *stored* numbers (xy stands for both off-diagonal entries and is varied once).
+// A symmetric 2x2 matrix is stored as three numbers xx, xy, yy; a gradient with respect to it is the derivative by
+// those *stored* numbers (xy stands for both off-diagonal entries and is varied once).
 #ifndef SPLATLAB_SPLAT2D_COVARIANCE_H
 #define SPLATLAB_SPLAT2D_COVARIANCE_H
 
@@ -11,7 +11,8 @@ typedef struct {
     double xx, xy, yy;
 } Sym2; // [[xx, xy], [xy, yy]]
 
-// Sigma from an angle (rad, counter-clockwise from +x towards +y) and two standard deviations. PSD for any input, because v^T Sigma v = |S R^T v|^2.
+// Sigma from an angle (rad, counter-clockwise from +x towards +y) and two standard deviations. PSD for any input,
+// because v^T Sigma v = |S R^T v|^2.
 Sym2 covariance_from_angle(double angle_rad, double sigma_x, double sigma_y);
 
 double sym2_determinant(Sym2 a);
@@ -20,7 +21,8 @@ Sym2 sym2_add_diagonal(Sym2 a, double d); // a + d I: the low-pass filter
 // The conic: Sigma^-1. False (and *conic untouched) when det <= 0: such a matrix is no covariance, or has no extent.
 bool covariance_conic(Sym2 covariance, Sym2 *conic);
 
-// The gradient by Sigma of a loss whose gradient by the conic is d_conic: with symmetric matrices, d_Sigma = -C d_C C, written for stored numbers.
+// The gradient by Sigma of a loss whose gradient by the conic is d_conic: d_Sigma = -C d_C C with full symmetric
+// matrices, written for stored numbers.
 Sym2 covariance_conic_backward(Sym2 conic, Sym2 d_conic);
 
 // Squared Mahalanobis distance of the offset (dx, dy): dx^2 xx + 2 dx dy xy + dy^2 yy of the conic.

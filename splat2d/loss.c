@@ -1,13 +1,15 @@
+// loss.c - L1 and SSIM with their gradients, by separable blurs over planes of one channel.
+//
 // How SSIM is computed here. Of picture x and photo y, per channel, with * the zero-padded convolution by the window w:
 //     mx = w * x            my = w * y                                               local means
 //     vx = w * x^2 - mx^2   vy = w * y^2 - my^2   cov = w * (x y) - mx my            local variances, covariance
 //     SSIM = (2 mx my + C1)(2 cov + C2) / ((mx^2 + my^2 + C1)(vx + vy + C2))         (Wang et al. 2004, eq. 13)
 //
-// How its gradient comes about. At each window centre p, SSIM depends on x through three blurred planes: mx, xx = w * x^2
-// and xy = w * (x y). With the partial derivatives of SSIM by these three, a, b and c,
+// How its gradient comes about. At each window centre p, SSIM depends on x through three blurred planes: mx,
+// xx = w * x^2 and xy = w * (x y). With the partial derivatives of SSIM by these three, a, b and c,
 //     d SSIM(p) / d x(q) = w(p - q) [ a(p) + 2 x(q) b(p) + y(q) c(p) ].
-// Summed over all p this is again a convolution (the window is symmetric, and centres outside the picture do not exist, which
-// is what zero padding says):
+// Summed over all p this is again a convolution (the window is symmetric, and centres outside the picture do not
+// exist, which is what zero padding says):
 //     d (sum_p SSIM(p)) / d x = w * a + 2 x (w * b) + y (w * c).
 #include "splat2d/loss.h"
 
