@@ -1,0 +1,82 @@
+// ssim_backward.cl - gradient of (1 - lambda) L1 + lambda (1 - SSIM) by the picture.
+//
+//     d loss / d x = l1_scale sign(x - y) + ssim_scale (w * a + 2 x (w * b) + y (w * c))
+// with a, b, c the maps that ssim_forward.cl left (derivatives of SSIM by w * x, w * x^2, w * (x y)), and x, y
+// beside b and c less SSIM_SHIFT as there. The picture is not clipped. (splat2d/loss.c, the C reference, derives it.)
+//
+//     picture (3, rows, stride), photo (height, width) RGBA bytes, maps (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN)
+//     d_picture (3, rows, stride): written everywhere, 0 right of width and below height
+//
+// One work-item: a strip of 16 columns and SSIM_STRIP_HEIGHT rows of one channel, as in ssim_forward.cl, with the same ring of
+// blurred rows; strips cover all rows of the plane here. Local memory: none; 4 KB of private array.
+// Test: tests/splat3d/test_opencl_loss.c.
+#include "ssim_row.h"
+
+enum { TAPS = 2 * SSIM_RADIUS + 1 };
+
+typedef struct {
+    float16 map[SSIM_MAPS];
+} MapRow;
+
+// 26 neighbouring values of a map, blurred along x.
+static float16 blur_row(const float *w, __global const float *at) {
+    const float16 l = vload16(0, at - SSIM_RADIUS), r = vload16(0, at - SSIM_RADIUS + 16);
+    float16 sum = w[0] * SSIM_TAP_5(l, r);
+    sum = fma(w[1], SSIM_TAP_4(l, r) + SSIM_TAP_6(l, r), sum);
+    sum = fma(w[2], SSIM_TAP_3(l, r) + SSIM_TAP_7(l, r), sum);
+    sum = fma(w[3], SSIM_TAP_2(l, r) + SSIM_TAP_8(l, r), sum);
+    sum = fma(w[4], SSIM_TAP_1(l, r) + SSIM_TAP_9(l, r), sum);
+    return fma(w[5], SSIM_TAP_0(l, r) + SSIM_TAP_10(l, r), sum);
+}
+
+static float16 blur_column(const float *w, const MapRow *rows, int map) {
+    float16 sum = (float16)(0.0f);
+    for (int k = 0; k < TAPS; k++) sum = fma(w[abs(k - SSIM_RADIUS)], rows[k].map[map], sum);
+    return sum;
+}
+
+// The gradient of 16 pixels from the 11 blurred map rows round them.
+static float16 gradient16(const SsimRecord s, const MapRow *rows, float16 x, float16 y) {
+    const float16 a = blur_column(s.window, rows, 0);
+    const float16 b = blur_column(s.window, rows, 1);
+    const float16 c = blur_column(s.window, rows, 2);
+    const float16 d_ssim = fma(2.0f * (x - SSIM_SHIFT), b, fma(y - SSIM_SHIFT, c, a));
+    const float16 zero = (float16)(0.0f);
+    const float16 d_absolute = select(select(zero, zero - 1.0f, x < y), zero + 1.0f, x > y);
+    return fma(s.ssim_scale, d_ssim, s.l1_scale * d_absolute);
+}
+
+__kernel void ssim_backward(const SsimRecord s, __global const float *picture, __global const uint *photo,
+                            __global const float *maps, __global float *d_picture) {
+    const int strips_x = s.stride / SSIM_STRIP_WIDTH;
+    const int strips_y = (s.rows + SSIM_STRIP_HEIGHT - 1) / SSIM_STRIP_HEIGHT;
+    const int item = (int)get_global_id(0);
+    if (item >= strips_x * strips_y * 3) return;
+    const int x = item % strips_x * SSIM_STRIP_WIDTH, channel = item / strips_x % 3;
+    const int y_begin = item / strips_x / 3 * SSIM_STRIP_HEIGHT, y_end = min(y_begin + SSIM_STRIP_HEIGHT, s.rows);
+    const int map_row = s.stride + 2 * SSIM_MARGIN, map_plane = map_row * s.rows;
+    const int16 inside = ssim_columns(x) < s.width;
+
+    MapRow ring[2 * TAPS];
+    int slot = 0; // of the row y
+    for (int y = y_begin - SSIM_RADIUS; y < y_end + SSIM_RADIUS; y++) {
+        for (int map = 0; map < SSIM_MAPS; map++) {
+            float16 blurred = (float16)(0.0f);
+            if (y >= 0 && y < s.height)
+                blurred = blur_row(s.window, maps + (map * 3 + channel) * map_plane + y * map_row + SSIM_MARGIN + x);
+            ring[slot].map[map] = ring[slot + TAPS].map[map] = blurred;
+        }
+        const int y_out = y - SSIM_RADIUS; // its window is complete
+        if (y_out >= y_begin) {
+            const int row = (channel * s.rows + y_out) * s.stride;
+            float16 gradient = (float16)(0.0f);
+            if (y_out < s.height) {
+                const float16 value = ssim_picture16(picture + row, x, s.width);
+                const float16 truth = ssim_photo16(photo + y_out * s.width, x, s.width, channel, s.background[channel]);
+                gradient = select(gradient, gradient16(s, ring + slot + 1, value, truth), inside);
+            }
+            vstore16(gradient, 0, d_picture + row + x);
+        }
+        slot = slot == TAPS - 1 ? 0 : slot + 1;
+    }
+}

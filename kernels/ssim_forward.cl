@@ -1,0 +1,137 @@
+// ssim_forward.cl - SSIM of picture x and photo y with its derivatives, and the sums of all parts of the loss.
+//
+//     SSIM = (2 mx my + C1) (2 cov + C2) / ((mx^2 + my^2 + C1) (vx + vy + C2))          (Wang et al. 2004, eq. 13)
+//     mx = w * x,  vx = w * x^2 - mx^2,  cov = w * (x y) - mx my;   w: Gaussian, 11 x 11, zero padded
+// per channel; then the derivatives of SSIM by mx (in which vx and cov follow), w * x^2 and w * (x y), which
+// ssim_backward.cl blurs again. Formulas: splat2d/loss.c (the C reference).
+//
+//     picture (3, rows, stride): planes r g b; what lies right of width and below height is not read
+//     photo   (height, width): R G B A bytes, R lowest
+//     maps    (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN): written for rows < height; 0 in margins and right of width
+//     sums    (work-items, SSIM_SUMS): of the work-item's own pixels
+//
+// One work-item: a strip of 16 columns and SSIM_STRIP_HEIGHT rows of one channel; item ((strip_y * 3) + channel) * strips_x + strip_x.
+// Both passes of the separable window are fused: each row is blurred along x once and kept while the window, moving down,
+// needs it. The ring holds every row twice, so that any 11 rows lie one behind the other and weights stay in registers:
+//
+//     slot   0 1 2 ... 10 | 11 12 ... 21         row r is stored at r % 11 and at r % 11 + 11;
+//                 [ s ... s + 10 ]               the 11 rows that end with r begin at s = r % 11 + 1
+// Sixteen lanes are written out because CPU compilers do not vectorise such a loop over work-items by themselves.
+// Local memory: none; 7 KB of private array. Test: tests/splat3d/test_opencl_loss.c.
+#include "ssim_row.h"
+
+enum { TAPS = 2 * SSIM_RADIUS + 1 };
+
+typedef struct {
+    float16 x, y, xx, yy, xy; // blurred: picture, photo (less SSIM_SHIFT), their products
+} Moments;
+
+// Weighted by a distance from the window's centre, added to *sum.
+static void add_tap(Moments *sum, float weight, float16 x, float16 y) {
+    const float16 wx = weight * x, wy = weight * y;
+    sum->x += wx;
+    sum->y += wy;
+    sum->xx = fma(wx, x, sum->xx);
+    sum->yy = fma(wy, y, sum->yy);
+    sum->xy = fma(wx, y, sum->xy);
+}
+
+// A row blurred along x.
+static Moments blur_row(const float *w, SsimRow x, SsimRow y) {
+    Moments sum;
+    sum.x = sum.y = sum.xx = sum.yy = sum.xy = (float16)(0.0f);
+#define TAP(k, distance) add_tap(&sum, w[distance], SSIM_TAP_##k(x.left, x.right), SSIM_TAP_##k(y.left, y.right))
+    TAP(0, 5), TAP(1, 4), TAP(2, 3), TAP(3, 2), TAP(4, 1), TAP(5, 0);
+    TAP(6, 1), TAP(7, 2), TAP(8, 3), TAP(9, 4), TAP(10, 5);
+#undef TAP
+    return sum;
+}
+
+// Eleven rows blurred along y.
+static Moments blur_column(const float *w, const Moments *rows) {
+    Moments sum;
+    sum.x = sum.y = sum.xx = sum.yy = sum.xy = (float16)(0.0f);
+    for (int k = 0; k < TAPS; k++) {
+        const float weight = w[abs(k - SSIM_RADIUS)];
+        sum.x = fma(weight, rows[k].x, sum.x);
+        sum.y = fma(weight, rows[k].y, sum.y);
+        sum.xx = fma(weight, rows[k].xx, sum.xx);
+        sum.yy = fma(weight, rows[k].yy, sum.yy);
+        sum.xy = fma(weight, rows[k].xy, sum.xy);
+    }
+    return sum;
+}
+
+// SSIM, and its derivatives by the three blurred planes that depend on the picture.
+static float16 ssim_at(Moments m, float16 *d_x, float16 *d_xx, float16 *d_xy) {
+    const float16 mx = m.x + SSIM_SHIFT, my = m.y + SSIM_SHIFT; // the true means; variances take the shifted ones
+    const float16 light = fma(2.0f * mx, my, (float16)(SSIM_C1));
+    const float16 structure = fma((float16)(2.0f), fma(-m.x, m.y, m.xy), (float16)(SSIM_C2));
+    const float16 over_light = 1.0f / fma(mx, mx, fma(my, my, (float16)(SSIM_C1)));
+    const float16 over_structure = 1.0f / (fma(-m.x, m.x, m.xx) + fma(-m.y, m.y, m.yy) + SSIM_C2);
+    const float16 d_light = structure * over_light * over_structure;
+    const float16 ssim = light * d_light;
+    *d_xx = -ssim * over_structure;
+    *d_xy = 2.0f * light * over_light * over_structure;
+    *d_x = 2.0f * (my * d_light - mx * ssim * over_light) - 2.0f * m.x * *d_xx - m.y * *d_xy;
+    return ssim;
+}
+
+// One row of the three maps; strips at the left and right edge also clear the margin beside them.
+static void store_maps(const SsimRecord s, __global float *maps, int x, int y, int channel, float16 d_x, float16 d_xx,
+                       float16 d_xy) {
+    const int row = s.stride + 2 * SSIM_MARGIN, plane = row * s.rows;
+    const float16 values[SSIM_MAPS] = {d_x, d_xx, d_xy};
+    for (int k = 0; k < SSIM_MAPS; k++) {
+        __global float *at = maps + (k * 3 + channel) * plane + y * row + SSIM_MARGIN + x;
+        vstore16(values[k], 0, at);
+        if (x == 0) vstore16((float16)(0.0f), 0, at - SSIM_MARGIN);
+        if (x + SSIM_STRIP_WIDTH == s.stride) vstore16((float16)(0.0f), 0, at + SSIM_STRIP_WIDTH);
+    }
+}
+
+__kernel void ssim_forward(const SsimRecord s, __global const float *picture, __global const uint *photo,
+                           __global float *maps, __global float *sums) {
+    const int strips_x = s.stride / SSIM_STRIP_WIDTH;
+    const int strips_y = (s.height + SSIM_STRIP_HEIGHT - 1) / SSIM_STRIP_HEIGHT;
+    const int item = (int)get_global_id(0);
+    if (item >= strips_x * strips_y * 3) return;
+    const int x = item % strips_x * SSIM_STRIP_WIDTH, channel = item / strips_x % 3;
+    const int y_begin = item / strips_x / 3 * SSIM_STRIP_HEIGHT, y_end = min(y_begin + SSIM_STRIP_HEIGHT, s.height);
+    const float16 inside = select((float16)(0.0f), (float16)(1.0f), ssim_columns(x) < s.width);
+
+    Moments ring[2 * TAPS];
+    float16 sum_absolute = (float16)(0.0f), sum_square = (float16)(0.0f), sum_ssim = (float16)(0.0f);
+    int slot = 0; // of the row y
+    for (int y = y_begin - SSIM_RADIUS; y < y_end + SSIM_RADIUS; y++) {
+        SsimRow p = {(float16)(0.0f), (float16)(0.0f)}, q = p; // outside the picture
+        if (y >= 0 && y < s.height) {
+            __global const float *picture_row = picture + (channel * s.rows + y) * s.stride;
+            __global const uint *photo_row = photo + y * s.width;
+            p.left = ssim_picture16(picture_row, x - SSIM_RADIUS, s.width);
+            p.right = ssim_picture16(picture_row, x - SSIM_RADIUS + 16, s.width);
+            q.left = ssim_photo16(photo_row, x - SSIM_RADIUS, s.width, channel, s.background[channel]);
+            q.right = ssim_photo16(photo_row, x - SSIM_RADIUS + 16, s.width, channel, s.background[channel]);
+        }
+        if (y >= y_begin && y < y_end) {
+            const float16 value = SSIM_TAP_5(p.left, p.right), truth = SSIM_TAP_5(q.left, q.right);
+            const float16 clipped = clamp(value, 0.0f, 1.0f) - truth;
+            sum_absolute = fma(inside, fabs(value - truth), sum_absolute);
+            sum_square = fma(inside, clipped * clipped, sum_square);
+        }
+        p.left -= SSIM_SHIFT, p.right -= SSIM_SHIFT;
+        q.left -= SSIM_SHIFT, q.right -= SSIM_SHIFT;
+        ring[slot] = ring[slot + TAPS] = blur_row(s.window, p, q);
+        const int y_out = y - SSIM_RADIUS; // its window is complete
+        if (y_out >= y_begin) {
+            float16 d_x, d_xx, d_xy;
+            const float16 ssim = ssim_at(blur_column(s.window, ring + slot + 1), &d_x, &d_xx, &d_xy);
+            sum_ssim = fma(inside, ssim, sum_ssim);
+            store_maps(s, maps, x, y_out, channel, inside * d_x, inside * d_xx, inside * d_xy);
+        }
+        slot = slot == TAPS - 1 ? 0 : slot + 1;
+    }
+    sums[item * SSIM_SUMS] = ssim_lane_sum(sum_absolute);
+    sums[item * SSIM_SUMS + 1] = ssim_lane_sum(sum_square);
+    sums[item * SSIM_SUMS + 2] = ssim_lane_sum(sum_ssim);
+}
