@@ -32,9 +32,15 @@ Camera camera_look_at(Vec3 eye, Vec3 target, Vec3 up, double fov_x_rad, int widt
 // The same camera with pictures of another size: intrinsics scaled by width / old width and height / old height.
 Camera camera_resized(const Camera *camera, int width, int height);
 
-// From a camera-to-world matrix (row-major 4x4): OpenGL axes (x right, y up, z back), as Blender and nerfstudio write it. Fails when its 3x3 part is no rotation
-// (a uniform scale is divided out).
+// Sets the pose from a camera-to-world matrix (row-major 4x4) in OpenGL axes (x right, y up, z back), as Blender and nerfstudio
+// write it, and back. Fails when its 3x3 part is no rotation (a uniform scale is divided out); `where` names the object.
 bool camera_pose_from_opengl(const double camera_to_world[16], Camera *camera, const char *where);
+void camera_pose_to_opengl(const Camera *camera, double camera_to_world[16]);
+
+enum { CAMERA_SIDE_MAX = 65535 }; // px
+
+// For what a file says: sides of 1..CAMERA_SIDE_MAX px, focal lengths > 0, everything finite, rotation a rotation.
+bool camera_check(const Camera *camera, const char *where);
 
 // width height fx fy cx cy world_to_camera (16 numbers, row-major, OpenCV axes).
 bool camera_load_json(const char *path, Camera *camera);
