@@ -36,26 +36,26 @@ typedef struct {
     float focal[2];       // px
     float centre[2];      // principal point, px
     float ratio_low[2];   // x/z and y/z are clamped to this range where J is evaluated
-    float ratio_high[2];  //
-    float background[3];  // r g b
-    float near_depth;     // world units
-    float low_pass_px2;   //
-    float alpha_max;      // (0, 1)
-    int width, height;    // px
-    int stride, rows;     // width and height padded to whole tiles
-    int tiles_x, tiles_y; //
-    int splat_count;      // N
-    int sh_degree;        // active degree, 0..3
-    int is_depth;         // 1: a splat's "colour" is (depth, 1, 0)
+    float ratio_high[2];
+    float background[3]; // r g b
+    float near_depth;    // world units
+    float low_pass_px2;
+    float alpha_max;   // (0, 1)
+    int width, height; // px
+    int stride, rows;  // width and height padded to whole tiles
+    int tiles_x, tiles_y;
+    int splat_count; // N
+    int sh_degree;   // active degree, 0..3
+    int is_depth;    // 1: a splat's "colour" is (depth, 1, 0)
 } FrameRecord;
 
 // One splat on the screen. With offsets dx, dy (px) from its mean, u = dx + shear dy:
 //     log2 alpha = along_u u^2 + along_v dy^2 + log2_opacity
 typedef struct {
-    float x, y;                    // mean, px
-    float along_u, along_v;        // <= 0, 1/px^2, with the factor -log2(e) / 2
-    float shear;                   // -Sigma'_xy / Sigma'_yy
-    float log2_opacity;            //
+    float x, y;             // mean, px
+    float along_u, along_v; // <= 0, 1/px^2, with the factor -log2(e) / 2
+    float shear;            // -Sigma'_xy / Sigma'_yy
+    float log2_opacity;
     float r, g, b;                 // colour >= 0
     float half_width, half_height; // px, of the box around the ellipse alpha = ALPHA_MIN
     float widest_dy;               // px, dy of the ellipse's rightmost point

@@ -7,20 +7,8 @@
 #define SPLATLAB_SPLAT3D_OPENCL_RASTERIZER_H
 
 #include "lab/gpu/gpu.h"
+#include "splat3d/device_gaussians.h"
 #include "splat3d/rasterizer.h"
-
-// Gaussians on the device: parameters, their gradients, or Adam's moments (all have the same shape).
-typedef struct {
-    int count;
-    int sh_degree;
-    GpuBuffer *field[FIELD_COUNT]; // (N, width) floats; NULL above sh_degree
-} DeviceGaussians;
-
-bool device_gaussians_create(Gpu *gpu, const char *what, int count, int sh_degree, DeviceGaussians *g); // zeroed
-bool device_gaussians_resize(DeviceGaussians *g, int count);            // content is lost
-bool device_gaussians_write(DeviceGaussians *g, const Gaussians *host); // takes its count (resizes) ; same sh_degree
-bool device_gaussians_read(const DeviceGaussians *g, Gaussians *host);  // creates *host
-void device_gaussians_destroy(DeviceGaussians *g);
 
 // What density control needs to know of each splat, summed over steps (RECIPE: mean over the views that see it).
 typedef struct {
@@ -37,7 +25,8 @@ bool opencl_rasterizer_create(Gpu *gpu, BlendKernels blend, OpenclRasterizer **r
 void opencl_rasterizer_destroy(OpenclRasterizer *rasterizer);          // accepts NULL
 Rasterizer *opencl_rasterizer_interface(OpenclRasterizer *rasterizer); // the table; destroying either destroys both
 
-// Forward: leaves the picture on the device. Enqueues; waits only for the depth sort.
+// Forward: leaves the picture on the device. Waits twice on its way, for the depth sort and for the lengths of the tile lists, which the host
+// computes; the blend itself is only enqueued. Fails on settings that the kernels do not know (STOP_BEFORE_BLEND, alpha_max >= 1).
 bool opencl_render(OpenclRasterizer *r, const DeviceGaussians *model, const Camera *camera,
                    const RenderSettings *settings);
 
@@ -52,7 +41,8 @@ typedef struct {
 DevicePicture opencl_picture(OpenclRasterizer *r);
 bool opencl_read_picture(OpenclRasterizer *r, Picture *picture); // to the host
 
-// Backward of the last opencl_render(): *gradient gets every number written (zero for splats that were not seen). statistics may be NULL.
+// Backward of the last opencl_render() of this model, unchanged since: *gradient gets every number written (zero for splats that were not
+// seen), except that fields above the rendered SH degree are left as they are. statistics may be NULL.
 bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGaussians *gradient,
                      DensityStatistics *statistics);
 

@@ -1,0 +1,156 @@
+#include "splat3d/opencl_binning.h"
+
+#include "lab/base/clock.h"
+#include "lab/base/fail.h"
+#include "lab/base/mem.h"
+#include "splat3d/depth_sort.h"
+
+#include <limits.h>
+
+enum {
+    GROUP_SIZE = 64,  // work-items; one splat or one tile each
+    CHUNKS_CPU = 32,  // of the counting sort. A device property only: the lists are the same with any number, and
+    CHUNKS_GPU = 512, // a GPU needs many work-items at once, where a CPU would rather keep the counts in its cache
+};
+
+bool opencl_binning_create(Gpu *gpu, OpenclBinning *binning) {
+    *binning = (OpenclBinning){.gpu = gpu};
+    if (gpu_program_create(gpu, "tile_masks.cl", "", &binning->masks_program) &&
+        gpu_kernel(binning->masks_program, "tile_masks", &binning->masks) &&
+        gpu_program_create(gpu, "tile_sort.cl", "", &binning->sort_program) &&
+        gpu_kernel(binning->sort_program, "tile_sort_count", &binning->count) &&
+        gpu_kernel(binning->sort_program, "tile_sort_prefix", &binning->prefix) &&
+        gpu_kernel(binning->sort_program, "tile_sort_scatter", &binning->scatter) &&
+        gpu_buffer_create(gpu, "depth order", 0, &binning->order) &&
+        gpu_buffer_create(gpu, "slot offsets", 0, &binning->offset) &&
+        gpu_buffer_create(gpu, "block masks", 0, &binning->mask) &&
+        gpu_buffer_create(gpu, "tile counts", 0, &binning->counts) &&
+        gpu_buffer_create(gpu, "tile starts", 0, &binning->start) &&
+        gpu_buffer_create(gpu, "tile lists (splats)", 0, &binning->list_splat) &&
+        gpu_buffer_create(gpu, "tile lists (slots)", 0, &binning->list_slot) &&
+        gpu_buffer_create(gpu, "tile lists (masks)", 0, &binning->list_mask))
+        return true;
+    opencl_binning_destroy(binning);
+    return false;
+}
+
+void opencl_binning_destroy(OpenclBinning *binning) {
+    gpu_buffer_destroy(binning->order);
+    gpu_buffer_destroy(binning->offset);
+    gpu_buffer_destroy(binning->mask);
+    gpu_buffer_destroy(binning->counts);
+    gpu_buffer_destroy(binning->start);
+    gpu_buffer_destroy(binning->list_splat);
+    gpu_buffer_destroy(binning->list_slot);
+    gpu_buffer_destroy(binning->list_mask);
+    gpu_program_destroy(binning->masks_program);
+    gpu_program_destroy(binning->sort_program);
+    mem_free(binning->keys);
+    mem_free(binning->scratch);
+    *binning = (OpenclBinning){0};
+}
+
+static void reserve_keys(OpenclBinning *binning, int count) {
+    if (count <= binning->keys_capacity) return;
+    const int capacity = count + count / 2;
+    mem_free(binning->keys);
+    mem_free(binning->scratch);
+    binning->keys = mem_alloc((size_t)capacity, sizeof *binning->keys);
+    binning->scratch = mem_alloc((size_t)capacity, sizeof *binning->scratch);
+    binning->keys_capacity = capacity;
+}
+
+// Slots in the order of the splats, and the visible splats in depth order; both sides are mapped memory of n entries.
+static void order_splats(OpenclBinning *binning, int n, const TileBox *box, const float *depth, uint32_t *offset,
+                         uint32_t *order) {
+    const double began_s = clock_seconds();
+    binning->visible = 0;
+    binning->slots = 0;
+    for (int i = 0; i < n; i++) {
+        offset[i] = (uint32_t)binning->slots;
+        const long tiles = (long)(box[i].x1 - box[i].x0) * (box[i].y1 - box[i].y0);
+        if (!tiles) continue;
+        binning->slots += tiles;
+        binning->keys[binning->visible++] = depth_sort_key(depth[i], (uint32_t)i);
+    }
+    depth_sort(binning->visible, binning->keys, binning->scratch, order);
+    gpu_stage_host(binning->gpu, (clock_seconds() - began_s) * 1e3);
+}
+
+static bool sort_by_depth(OpenclBinning *binning, int n, const OpenclProject *project) {
+    const size_t bytes = (size_t)n * sizeof(uint32_t);
+    void *box, *depth, *offset, *order;
+    gpu_stage(binning->gpu, "sort");
+    reserve_keys(binning, n);
+    if (!gpu_buffer_reserve(binning->offset, bytes) || !gpu_buffer_reserve(binning->order, bytes)) return false;
+
+    if (!gpu_buffer_map(project->box, GPU_READ, &box)) return false;
+    bool done = gpu_buffer_map(project->depth, GPU_READ, &depth);
+    if (done) {
+        done = gpu_buffer_map(binning->offset, GPU_WRITE, &offset);
+        if (done) {
+            done = gpu_buffer_map(binning->order, GPU_WRITE, &order);
+            if (done) order_splats(binning, n, box, depth, offset, order);
+            done = done && gpu_buffer_unmap(binning->order);
+            done = gpu_buffer_unmap(binning->offset) && done;
+        }
+        done = gpu_buffer_unmap(project->depth) && done;
+    }
+    done = gpu_buffer_unmap(project->box) && done;
+    if (done && binning->slots > INT_MAX)
+        return fail(
+            "%d splats touch %ld tiles, more than %d can be sorted; are the scales or the focal length too large? "
+            "Smaller pictures need fewer",
+            binning->visible, binning->slots, INT_MAX);
+    return done;
+}
+
+// Turns each tile's number of pairs into where its list starts.
+static bool place_lists(OpenclBinning *binning, int tile_count) {
+    void *mapped;
+    if (!gpu_buffer_map(binning->start, GPU_READ_WRITE, &mapped)) return false;
+    uint32_t *start = mapped, sum = 0;
+    for (int tile = 0; tile < tile_count; tile++) {
+        const uint32_t pairs = start[tile];
+        start[tile] = sum;
+        sum += pairs;
+    }
+    start[tile_count] = sum;
+    binning->pairs = sum;
+    return gpu_buffer_unmap(binning->start) && gpu_buffer_reserve(binning->list_splat, sum * sizeof(uint32_t)) &&
+           gpu_buffer_reserve(binning->list_slot, sum * sizeof(uint32_t)) &&
+           gpu_buffer_reserve(binning->list_mask, sum * sizeof(uint16_t));
+}
+
+bool opencl_binning_run(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
+    const size_t n = (size_t)frame->splat_count;
+    const int tile_count = frame->tiles_x * frame->tiles_y;
+    const int chunks = gpu_info(binning->gpu)->is_cpu ? CHUNKS_CPU : CHUNKS_GPU;
+    if (!sort_by_depth(binning, frame->splat_count, project)) return false;
+    const int chunk_length = (binning->visible + chunks - 1) / chunks;
+
+    gpu_stage(binning->gpu, "bin");
+    if (!gpu_buffer_reserve(binning->mask, (size_t)binning->slots * sizeof(uint16_t)) ||
+        !gpu_buffer_reserve(binning->counts, (size_t)chunks * (size_t)tile_count * sizeof(uint32_t)) ||
+        !gpu_buffer_reserve(binning->start, ((size_t)tile_count + 1) * sizeof(uint32_t)))
+        return false;
+    if (!gpu_launch(binning->masks, ((GpuRange){.width = n, .group_width = GROUP_SIZE}),
+                    gpu_record_arg(frame, sizeof *frame), gpu_buffer_arg(project->screen), gpu_buffer_arg(project->box),
+                    gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask)) ||
+        !gpu_launch(binning->count, ((GpuRange){.width = (size_t)chunks, .group_width = 1}),
+                    gpu_int_arg(binning->visible), gpu_int_arg(chunk_length), gpu_int_arg(frame->tiles_x),
+                    gpu_int_arg(tile_count), gpu_int_arg(chunks), gpu_buffer_arg(binning->order),
+                    gpu_buffer_arg(project->box), gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask),
+                    gpu_buffer_arg(binning->counts)) ||
+        !gpu_launch(binning->prefix, ((GpuRange){.width = (size_t)tile_count, .group_width = GROUP_SIZE}),
+                    gpu_int_arg(tile_count), gpu_int_arg(chunks), gpu_buffer_arg(binning->counts),
+                    gpu_buffer_arg(binning->start)) ||
+        !place_lists(binning, tile_count))
+        return false;
+    return gpu_launch(
+        binning->scatter, ((GpuRange){.width = (size_t)chunks, .group_width = 1}), gpu_int_arg(binning->visible),
+        gpu_int_arg(chunk_length), gpu_int_arg(frame->tiles_x), gpu_int_arg(tile_count), gpu_int_arg(chunks),
+        gpu_buffer_arg(binning->order), gpu_buffer_arg(project->box), gpu_buffer_arg(binning->offset),
+        gpu_buffer_arg(binning->mask), gpu_buffer_arg(binning->counts), gpu_buffer_arg(binning->start),
+        gpu_buffer_arg(binning->list_splat), gpu_buffer_arg(binning->list_slot), gpu_buffer_arg(binning->list_mask));
+}
