@@ -1,0 +1,63 @@
+// facts_memory.c - what training takes in memory, counted from the sizes of what it holds.
+#include "lab/app/facts.h"
+
+#include "kernels/shared.h"
+
+// Measured on trained scenes: a splat in view touches about this many tiles.
+enum { PAIRS_PER_SPLAT = 8 };
+
+// Per splat: parameters, gradient and Adam's two moments.
+static size_t learned_bytes(int sh_degree) { return 4 * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree); }
+
+// Per splat: its place on the screen, its gradient there (as many floats), depth order, id and density statistics, and a
+// gradient record, an index and a mask for each tile that it touches.
+static size_t working_bytes(void) {
+    size_t screen = 2 * sizeof(ScreenSplat) + sizeof(TileBox);
+    size_t order_and_statistics = 6 * sizeof(float);
+    size_t pair = sizeof(PairGradient) + 3 * sizeof(int);
+    return screen + order_and_statistics + PAIRS_PER_SPLAT * pair;
+}
+
+// Photographs stand on the device as RGBA bytes; those held out wait on the host as they were read.
+static size_t photo_bytes(const Dataset *dataset) {
+    size_t bytes = 0;
+    for (int i = 0; i < dataset->view_count; i++) {
+        const View *view = &dataset->views[i];
+        size_t pixels = (size_t)view->camera.width * (size_t)view->camera.height;
+        bytes += pixels * (size_t)(view->held_out ? view->channels : 4);
+    }
+    return bytes;
+}
+
+// Of the largest view: picture and gradient, and the loss's strips (5 sums a pixel and channel).
+static size_t picture_bytes(const Dataset *dataset) {
+    size_t most = 0;
+    for (int i = 0; i < dataset->view_count; i++) {
+        const Camera *camera = &dataset->views[i].camera;
+        size_t values = 3 * (size_t)camera->width * (size_t)camera->height;
+        size_t bytes = values * (2 + 5) * sizeof(float);
+        if (bytes > most) most = bytes;
+    }
+    return most;
+}
+
+static void set_bytes(json_t *facts, const char *key, size_t bytes) {
+    json_object_set_new(facts, key, json_integer((json_int_t)bytes));
+}
+
+json_t *facts_of_memory(int splats, int sh_degree, const Dataset *dataset) {
+    json_t *facts = json_object();
+    size_t learned = learned_bytes(sh_degree), working = working_bytes();
+    size_t total = (size_t)splats * (learned + working);
+    json_object_set_new(facts, "splats", json_integer(splats));
+    json_object_set_new(facts, "sh_degree", json_integer(sh_degree));
+    set_bytes(facts, "learned_per_splat_bytes", learned);
+    set_bytes(facts, "working_per_splat_bytes", working);
+    if (dataset) {
+        set_bytes(facts, "photographs_bytes", photo_bytes(dataset));
+        set_bytes(facts, "picture_bytes", picture_bytes(dataset));
+        total += photo_bytes(dataset) + picture_bytes(dataset);
+    }
+    set_bytes(facts, "total_bytes", total);
+    return facts;
+}
