@@ -12,15 +12,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { HELD_OUT_EVERY = 8 }; // index mod 8 = 0 of the sorted names
+enum { HELD_OUT_EVERY = 8 }; // index mod 8 = 0 of the sorted names; a single view is trained on
 
 typedef struct {
-    char *name;    // as the scene names it: "DSC_0423.JPG", "train/r_0"
-    char *path;    // of the image file
-    Camera camera; // of the picture after downscaling
-    int channels;  // 3, or 4 with alpha
-    bool held_out; // for evaluation only
-    Image8 image;  // empty until dataset_load_images()
+    char *name;     // as the scene names it: "DSC_0423.JPG", "train/r_0"
+    char *path;     // of the image file
+    Camera camera;  // of the picture after downscaling
+    int channels;   // 3, or 4 with alpha
+    bool as_stored; // EXIF orientation is not applied: the camera belongs to the pixels as they stand in the file
+    bool held_out;  // for evaluation only
+    Image8 image;   // empty until dataset_load_images()
 } View;
 
 typedef struct {
@@ -32,8 +33,9 @@ typedef struct {
     Points points;          // none: count 0
     double init_half_width; // no points: random ones fill the cube of this half width round init_centre
     Vec3 init_centre;
-    double extent; // 1.1 x the largest distance of a training camera's centre from their mean; world units
-    Vec3 centre;   // mean of the training cameras' centres
+    double
+        extent; // 1.1 x the largest distance of a training camera's centre from their mean (1 if that is 0); world units
+    Vec3 centre; // mean of the training cameras' centres
 } Dataset;
 
 // Reads cameras and points and checks that every image is there and has the size its camera says (after a
@@ -51,11 +53,21 @@ const View *dataset_find_view(const Dataset *dataset,
                               const char *name);    // exact, or without its ending; NULL if there is none
 size_t dataset_image_bytes(const Dataset *dataset); // what dataset_load_images() holds
 
-// The readers that dataset_open() chooses from; each fills everything but images, extent and centre.
-bool colmap_open(const char *path,
-                 Dataset *dataset); // PATH/sparse/0, PATH/sparse or PATH itself holds cameras.bin/.txt
-bool transforms_open(const char *path,
-                     Dataset *dataset); // PATH/transforms.json or transforms_train.json (+ transforms_test.json)
+// ---- the readers that dataset_open() chooses from ----
+// Each fills everything but downscaling, images, extent and centre; *dataset is to be destroyed also after a failure.
+
+bool colmap_is_scene(
+    const char *path); // PATH/sparse/0, PATH/sparse or PATH itself holds cameras.bin/.txt and images.bin/.txt
+bool colmap_open(const char *path, Dataset *dataset); // photos in PATH/images, PATH/images_N or PATH
+
+bool transforms_is_scene(const char *path);               // PATH holds transforms.json or transforms_train.json
+bool transforms_open(const char *path, Dataset *dataset); // a Blender set has transforms_test.json (or _val) besides
+
+// What both do at their end: order by name (fails for two of the same name); look at each image, fill in `channels` and scale the
+// intrinsics to its size (fails when it is missing, broken or of another shape); mark every 8th view as held out.
+bool dataset_sort_views(Dataset *dataset);
+bool dataset_fit_images(Dataset *dataset);
+void dataset_hold_out(Dataset *dataset);
 
 // Writers, for sample scenes: sparse/0/{cameras,images,points3D}.bin. Each view's camera must be PINHOLE.
 bool colmap_write(const char *folder, const Dataset *dataset);

@@ -151,6 +151,28 @@ bool load_float(const char *path, Source &source, int colours, ImageF *image) {
     return true;
 }
 
+bool load_bytes(const char *path, Source &source, Image8 *image) {
+    if (source.premultiplied) { // divide in float, or the colour of nearly transparent pixels is lost
+        ImageF floats;
+        if (!load_float(path, source, 3, &floats)) return false;
+        *image = image8_from_float(&floats);
+        imagef_destroy(&floats);
+        return true;
+    }
+    std::vector<uint8_t> pixels;
+    if (!read_pixels(path, source, OIIO::TypeDesc::UINT8, pixels)) return false;
+    *image = image8_create(upright_width(source), upright_height(source), 3 + (source.alpha >= 0));
+    arrange(source, pixels, 3, image->bytes);
+    return true;
+}
+
+bool measure(const Source &source, int *width, int *height, int *channels) {
+    *width = upright_width(source);
+    *height = upright_height(source);
+    *channels = source.alpha >= 0 ? 4 : 3;
+    return true;
+}
+
 bool is_jpeg(const char *path) { return file_has_ending(path, ".jpg") || file_has_ending(path, ".jpeg"); }
 bool is_byte_format(const char *path) { return file_has_ending(path, ".png") || is_jpeg(path); }
 bool is_exr(const char *path) { return file_has_ending(path, ".exr"); }
@@ -192,29 +214,28 @@ bool fail_ending(const char *path) {
 
 bool image_probe(const char *path, int *width, int *height, int *channels) {
     Source source;
+    return open_source(path, source) && measure(source, width, height, channels);
+}
+
+bool image_probe_stored(const char *path, int *width, int *height, int *channels) {
+    Source source;
     if (!open_source(path, source)) return false;
-    *width = upright_width(source);
-    *height = upright_height(source);
-    *channels = source.alpha >= 0 ? 4 : 3;
-    return true;
+    source.orientation = orientation_upright;
+    return measure(source, width, height, channels);
 }
 
 bool image_load8(const char *path, Image8 *image) {
     *image = Image8{};
     Source source;
+    return open_source(path, source) && load_bytes(path, source, image);
+}
+
+bool image_load8_stored(const char *path, Image8 *image) {
+    *image = Image8{};
+    Source source;
     if (!open_source(path, source)) return false;
-    if (source.premultiplied) { // divide in float, or the colour of nearly transparent pixels is lost
-        ImageF floats;
-        if (!load_float(path, source, 3, &floats)) return false;
-        *image = image8_from_float(&floats);
-        imagef_destroy(&floats);
-        return true;
-    }
-    std::vector<uint8_t> pixels;
-    if (!read_pixels(path, source, OIIO::TypeDesc::UINT8, pixels)) return false;
-    *image = image8_create(upright_width(source), upright_height(source), 3 + (source.alpha >= 0));
-    arrange(source, pixels, 3, image->bytes);
-    return true;
+    source.orientation = orientation_upright;
+    return load_bytes(path, source, image);
 }
 
 bool image_loadf(const char *path, ImageF *image) {

@@ -20,6 +20,10 @@ bool image_probe(const char *path, int *width, int *height, int *channels);
 // As 8-bit. Channels: 3, or 4 where the file has alpha (straight); grey becomes RGB.
 bool image_load8(const char *path, Image8 *image);
 
+// The same two without regard to EXIF orientation, for those who measured the pixels as they stand in the file.
+bool image_probe_stored(const char *path, int *width, int *height, int *channels);
+bool image_load8_stored(const char *path, Image8 *image);
+
 // As float: 8- and 16-bit integers become 0..1, float files keep their values. Channels as in the file (1, 3 or 4).
 bool image_loadf(const char *path, ImageF *image);
 

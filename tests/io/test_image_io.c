@@ -225,6 +225,13 @@ static void every_orientation_stands_upright(void **state) {
         assert_int_equal(turned.width, width);
         for (int i = 0; i < 6; i++) assert_int_equal(turned.bytes[3 * i], 40 * upright[k][i]);
         image8_destroy(&turned);
+        assert_true(image_probe_stored(scratch("turned.tif"), &width, &height, &channels));
+        assert_int_equal(width, 3);
+        Image8 stored;
+        assert_true(image_load8_stored(scratch("turned.tif"), &stored));
+        assert_int_equal(stored.height, 2);
+        for (int i = 0; i < 6; i++) assert_int_equal(stored.bytes[3 * i], 40 * i);
+        image8_destroy(&stored);
     }
     image8_destroy(&image);
 }
