@@ -97,14 +97,12 @@ static void print_option(const OptionField *field, const void *defaults) {
 void command_help(const Command *command, const OptionTable *table) {
     printf("Usage: splatlab %s%s%s [OPTIONS]\n", command->name, command->arguments[0] ? " " : "", command->arguments);
     printf("\n%s\n", command->summary);
-    const char *section = "Options";
     for (int i = 0; i < table->count; i++) {
         const OptionField *field = &table->fields[i];
-        if (field->section) section = field->section;
-        if (i == 0 || field->section) printf("\n%s:\n", section);
+        if (i == 0 || field->section) printf("\n%s:\n", field->section ? field->section : "Options");
         print_option(field, table->defaults);
     }
-    if (table->count == 0) printf("\n%s:\n", section);
+    putchar('\n');
     print_left("  -h, --help");
     printf("this text\n");
     if (command->details) printf("\n%s\n", command->details);

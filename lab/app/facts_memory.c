@@ -3,7 +3,7 @@
 
 #include "kernels/shared.h"
 
-// Measured on trained scenes: a splat in view touches about this many tiles.
+// An expectation: 100,000 splats of 3 px spread over 640 x 480 touch 5 tiles each, larger pictures more.
 enum { PAIRS_PER_SPLAT = 8 };
 
 // Per splat: parameters, gradient and Adam's two moments.

@@ -11,11 +11,11 @@ static bool is_bytes(const char *key) {
     return length > ending && strcmp(key + length - ending, "_bytes") == 0;
 }
 
-// "held_out" -> "held out", after the indentation of its depth.
-static void print_name(const char *key, int depth) {
+// "held_out" -> "held out", after the indentation of its depth; returns the columns used.
+static int print_name(const char *key, int depth) {
     int printed = printf("%*s", 2 * depth, "");
     for (const char *c = key; *c; c++, printed++) putchar(*c == '_' ? ' ' : *c);
-    printf("%*s", printed < NAME_COLUMNS ? NAME_COLUMNS - printed : 1, "");
+    return printed;
 }
 
 static void print_value(const char *key, const json_t *value) {
@@ -40,11 +40,12 @@ static void print_object(const json_t *object, int depth) {
     const char *key;
     json_t *value;
     json_object_foreach((json_t *)object, key, value) {
-        print_name(key, depth);
+        int printed = print_name(key, depth);
         if (json_is_object(value)) {
             putchar('\n');
             print_object(value, depth + 1);
         } else {
+            printf("%*s", printed < NAME_COLUMNS ? NAME_COLUMNS - printed : 1, "");
             print_value(key, value);
             putchar('\n');
         }
