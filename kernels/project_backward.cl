@@ -1,13 +1,14 @@
 // project_backward.cl - from the records of a splat's tiles to the gradients of all its parameters: project_forward.cl backwards.
 //
-// First the records of the splat are summed, in the order in which they lie. With the sums W.. of d loss / d ln alpha (PairGradient)
-// and q = Sigma'^-1 (dx, dy) = (P u, shear P u + Q v), P = 1 / var_u, Q = 1 / var_v:
+// First the records of the splat are summed, in the order in which they lie. They are sums of W = d loss / d ln alpha over pixels, in
+// the coordinates u, v. With P = 1 / var_u, Q = 1 / var_v and q = Sigma'^-1 (dx, dy) = (P u, shear P u + Q v):
 //     d loss / d mean2d = sum W q                  since d ln alpha / d mean2d = q
-//     d loss / d Sigma' = G = 1/2 sum W q q^T      since d ln alpha / d Sigma' = 1/2 q q^T      (as a full symmetric matrix)
-//     d loss / d logit  = W (1 - opacity)
-// Then, with Sigma' = M M^T + low_pass I, M = T V, T = J W, V = R S (projection.h):
-//     d M = 2 G M,   d V = T^T d M,   d T = d M V^T
-//     d log_scale_k = column k of d M . column k of M,   d R = d V S,   and R's quaternion through its normalisation
+//     d loss / d M      = sum W q (q^T M)          since d ln alpha / d Sigma' = 1/2 q q^T and Sigma' = M M^T + low_pass I
+//     d loss / d logit  = (1 - opacity) sum W
+// q^T M = P u N + Q v M1 with N = M0 + shear M1. For a long, thin splat M0 and shear M1 nearly cancel, so N is computed without that
+// difference: N = (low_pass M0 + M1 x (M0 x M1)) / Sigma'_yy. Then, with M = T V, T = J W, V = R S (projection.h):
+//     d V = T^T d M,   d T = d M V^T,   d R = d V S, and R's quaternion through its normalisation
+//     d log_scale_k = column k of d M . column k of M = sum W (q^T M)_k^2
 //     d mean = W^T d p: through mean2d, through T (z, and x, y where the ratio is not clamped: the exact derivative of
 //     the clamped expression), through the viewing direction of the colour, and through the depth when that is rendered.
 // Derived from the forward formulas by the chain rule; Ye et al. 2024 (gsplat), appendix, gives the same steps.
@@ -58,11 +59,14 @@ static float4 rotation_backward(float4 quat, float3 d0, float3 d1, float3 d2) {
                         w * (d1.x - d0.y) + x * (d0.z + d2.x) + y * (d1.z + d2.y) - 2 * z * (d0.x + d1.y));
 }
 
-// Gradients of log-scale and quaternion, and of the mean in camera axes, from those of the mean on the screen and of Sigma'.
-static float3 covariance_backward(__private const FrameRecord *frame, const Projection *p, float2 d_mean_px, float g_xx,
-                                  float g_xy, float g_yy, float3 *d_log_scale, float4 *d_quat) {
-    const float3 d_m0 = 2 * (g_xx * p->m0 + g_xy * p->m1), d_m1 = 2 * (g_xy * p->m0 + g_yy * p->m1);
-    *d_log_scale = d_m0 * p->m0 + d_m1 * p->m1;
+// Gradients of log-scale and quaternion, and of the mean in camera axes, from that of the mean on the screen and the sums of
+// W (P u)^2, W P u Q v and W (Q v)^2.
+static float3 covariance_backward(__private const FrameRecord *frame, const Projection *p, float2 d_mean_px, float uu,
+                                  float uv, float vv, float3 *d_log_scale, float4 *d_quat) {
+    const float3 n = (frame->low_pass_px2 * p->m0 + cross(p->m1, cross(p->m0, p->m1))) * p->inv_var_v;
+    const float3 d_m0 = uu * n + uv * p->m1, d_v = uv * n + vv * p->m1;
+    const float3 d_m1 = p->shear * d_m0 + d_v;
+    *d_log_scale = d_m0 * n + d_v * p->m1;
 
     // d R_row = sum over T's rows of T[.][row] d M S
     const float3 e0 = d_m0 * p->scale, e1 = d_m1 * p->scale;
@@ -70,16 +74,15 @@ static float3 covariance_backward(__private const FrameRecord *frame, const Proj
                                             p->t0.z * e0 + p->t1.z * e1);
     *d_quat = (d_unit - p->quat * dot(p->quat, d_unit)) / p->quat_length;
 
-    // T0 = fx / z (W0 - ratio_x W2), T1 alike
+    // T0 = fx / z (W0 - ratio_x W2), T1 alike. M is proportional to 1 / z as it is to the scales, hence the sum of their gradients.
     const float3 d_t0 = rows_apply(p->r0, p->r1, p->r2, e0), d_t1 = rows_apply(p->r0, p->r1, p->r2, e1);
     const float inv_z = 1.0f / p->point.z;
     const float2 focal = (float2)(frame->focal[0], frame->focal[1]);
     const float3 w2 = frame_rotation_row(frame, 2);
     const float2 ratio = p->point.xy * inv_z;
     const float2 d_ratio_of_j = -inv_z * focal * (float2)(dot(d_t0, w2), dot(d_t1, w2));
-    const float2 d_ratio = focal * d_mean_px + select((float2)(0), d_ratio_of_j, ratio == p->ratio);
-    const float2 d_xy = d_ratio * inv_z;
-    return (float3)(d_xy, -dot(d_xy, ratio) - (dot(d_t0, p->t0) + dot(d_t1, p->t1)) * inv_z);
+    const float2 d_xy = inv_z * (focal * d_mean_px + select((float2)(0), d_ratio_of_j, ratio == p->ratio));
+    return (float3)(d_xy, -dot(d_xy, ratio) - inv_z * dot(*d_log_scale, (float3)(1)));
 }
 
 // What one splat's sums say about its parameters; all zero for a splat out of view.
@@ -94,17 +97,11 @@ typedef struct {
 
 static Gradient splat_backward(__private const FrameRecord *frame, PairGradient sum, ScreenSplat splat, float logit,
                                const Projection *p) {
-    // q = (a u, shear a u + b v)
-    const float a = p->inv_var_u, b = p->inv_var_v;
+    const float a = p->inv_var_u, b = p->inv_var_v; // P, Q
     const float2 d_mean_px = (float2)(a * sum.wu, p->shear * a * sum.wu + b * sum.wv);
-    const float g_xx = 0.5f * a * a * sum.wuu;
-    const float g_uv = 0.5f * a * b * sum.wuv;
-    const float g_xy = p->shear * g_xx + g_uv;
-    const float g_yy = p->shear * (g_xy + g_uv) + 0.5f * b * b * sum.wvv;
-
     Gradient gradient;
-    float3 d_point =
-        covariance_backward(frame, p, d_mean_px, g_xx, g_xy, g_yy, &gradient.d_log_scale, &gradient.d_quat);
+    float3 d_point = covariance_backward(frame, p, d_mean_px, a * a * sum.wuu, a * b * sum.wuv, b * b * sum.wvv,
+                                         &gradient.d_log_scale, &gradient.d_quat);
     gradient.d_colour = (float3)(0);
     if (frame->is_depth)
         d_point.z += sum.r;
