@@ -22,13 +22,13 @@ static bool has_file(const char *folder, const char *stem, const char *ending) {
     return found;
 }
 
-// The folder with the model's files and their ending (".bin" before ".txt"); NULL when there is none.
+// The folder with the model's cameras and the ending of its files (".bin" before ".txt"); NULL when there is none.
 static char *find_model(const char *path, const char **ending) {
     static const char *const endings[] = {".bin", ".txt"};
     for (size_t i = 0; i < sizeof MODEL_FOLDERS / sizeof *MODEL_FOLDERS; i++) {
         char *folder = MODEL_FOLDERS[i] ? file_join(path, MODEL_FOLDERS[i]) : mem_text(path);
         for (int k = 0; k < 2; k++)
-            if (has_file(folder, "cameras", endings[k]) && has_file(folder, "images", endings[k])) {
+            if (has_file(folder, "cameras", endings[k])) {
                 *ending = endings[k];
                 return folder;
             }
@@ -154,7 +154,7 @@ bool colmap_open(const char *path, Dataset *dataset) {
     *dataset = (Dataset){.path = mem_text(path), .downscale = 1};
     char *folder = find_model(path, &ending);
     if (!folder)
-        return fail("cannot read %s: no COLMAP model (cameras.bin and images.bin, or .txt) in its folders sparse/0 and "
+        return fail("cannot read %s: no COLMAP model (cameras.bin or .txt) in its folders sparse/0 and "
                     "sparse, nor in itself",
                     path);
     dataset->kind = strcmp(ending, ".bin") == 0 ? "COLMAP binary" : "COLMAP text";

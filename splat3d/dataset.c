@@ -84,10 +84,9 @@ static bool fail_unknown(const char *path) {
     int count;
     if (!file_list(path, &names, &count)) return fail_context("cannot open %s as a scene", path);
     file_list_free(names, count);
-    return fail(
-        "cannot open %s as a scene: %s; looked for a COLMAP model (cameras.bin or .txt with images.bin or .txt, in "
-        "sparse/0, sparse or the folder itself), transforms.json and transforms_train.json",
-        path, count == 0 ? "the folder is empty" : "it holds no cameras");
+    return fail("cannot open %s as a scene: %s; looked for a COLMAP model (cameras.bin or .txt in "
+                "sparse/0, sparse or the folder itself), transforms.json and transforms_train.json",
+                path, count == 0 ? "the folder is empty" : "it holds no cameras");
 }
 
 static bool read_scene(const char *path, Dataset *dataset) {

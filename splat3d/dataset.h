@@ -33,9 +33,8 @@ typedef struct {
     Points points;          // none: count 0
     double init_half_width; // no points: random ones fill the cube of this half width round init_centre
     Vec3 init_centre;
-    double
-        extent; // 1.1 x the largest distance of a training camera's centre from their mean (1 if that is 0); world units
-    Vec3 centre; // mean of the training cameras' centres
+    double extent; // 1.1 x the largest distance of a training camera's centre from their mean (1 if 0); world units
+    Vec3 centre;   // mean of the training cameras' centres
 } Dataset;
 
 // Reads cameras and points and checks that every image is there and has the size its camera says (after a
@@ -56,8 +55,7 @@ size_t dataset_image_bytes(const Dataset *dataset); // what dataset_load_images(
 // ---- the readers that dataset_open() chooses from ----
 // Each fills everything but downscaling, images, extent and centre; *dataset is to be destroyed also after a failure.
 
-bool colmap_is_scene(
-    const char *path); // PATH/sparse/0, PATH/sparse or PATH itself holds cameras.bin/.txt and images.bin/.txt
+bool colmap_is_scene(const char *path); // PATH/sparse/0, PATH/sparse or PATH itself holds cameras.bin or .txt
 bool colmap_open(const char *path, Dataset *dataset); // photos in PATH/images, PATH/images_N or PATH
 
 bool transforms_is_scene(const char *path);               // PATH holds transforms.json or transforms_train.json
