@@ -4,7 +4,7 @@
 // with a, b, c the maps that ssim_forward.cl left (derivatives of SSIM by w * x, w * x^2, w * (x y)), and x, y
 // beside b and c less SSIM_SHIFT as there. The picture is not clipped. (splat2d/loss.c, the C reference, derives it.)
 //
-//     picture (3, rows, stride), photo (height, width) RGBA bytes, maps (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN)
+//     picture (3, rows, stride), photo (height, stride) RGBA bytes, maps (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN)
 //     d_picture (3, rows, stride): written everywhere, 0 right of width and below height
 //
 // One work-item: a strip of 16 columns and SSIM_STRIP_HEIGHT rows of one channel, as in ssim_forward.cl, with the same ring of
@@ -18,32 +18,34 @@ typedef struct {
     float16 map[SSIM_MAPS];
 } MapRow;
 
-// 26 neighbouring values of a map, blurred along x.
+// A row of a map, blurred along x; `at` is the strip's place in it.
 static float16 blur_row(const float *w, __global const float *at) {
-    const float16 l = vload16(0, at - SSIM_RADIUS), r = vload16(0, at - SSIM_RADIUS + 16);
-    float16 sum = w[0] * SSIM_TAP_5(l, r);
-    sum = fma(w[1], SSIM_TAP_4(l, r) + SSIM_TAP_6(l, r), sum);
-    sum = fma(w[2], SSIM_TAP_3(l, r) + SSIM_TAP_7(l, r), sum);
-    sum = fma(w[3], SSIM_TAP_2(l, r) + SSIM_TAP_8(l, r), sum);
-    sum = fma(w[4], SSIM_TAP_1(l, r) + SSIM_TAP_9(l, r), sum);
-    return fma(w[5], SSIM_TAP_0(l, r) + SSIM_TAP_10(l, r), sum);
+    __global const float16 *vectors = (__global const float16 *)at;
+    const SsimRow r = {vectors[-1], vectors[0], vectors[1]};
+    float16 sum = w[0] * SSIM_TAP_0(r);
+    sum = fma(w[1], SSIM_TAP_m1(r) + SSIM_TAP_p1(r), sum);
+    sum = fma(w[2], SSIM_TAP_m2(r) + SSIM_TAP_p2(r), sum);
+    sum = fma(w[3], SSIM_TAP_m3(r) + SSIM_TAP_p3(r), sum);
+    sum = fma(w[4], SSIM_TAP_m4(r) + SSIM_TAP_p4(r), sum);
+    return fma(w[5], SSIM_TAP_m5(r) + SSIM_TAP_p5(r), sum);
 }
 
 static float16 blur_column(const float *w, const MapRow *rows, int map) {
     float16 sum = (float16)(0.0f);
+#pragma unroll
     for (int k = 0; k < TAPS; k++) sum = fma(w[abs(k - SSIM_RADIUS)], rows[k].map[map], sum);
     return sum;
 }
 
 // The gradient of 16 pixels from the 11 blurred map rows round them.
-static float16 gradient16(const SsimRecord s, const MapRow *rows, float16 x, float16 y) {
-    const float16 a = blur_column(s.window, rows, 0);
-    const float16 b = blur_column(s.window, rows, 1);
-    const float16 c = blur_column(s.window, rows, 2);
+static float16 gradient16(const SsimRecord *s, const MapRow *rows, float16 x, float16 y) {
+    const float16 a = blur_column(s->window, rows, 0);
+    const float16 b = blur_column(s->window, rows, 1);
+    const float16 c = blur_column(s->window, rows, 2);
     const float16 d_ssim = fma(2.0f * (x - SSIM_SHIFT), b, fma(y - SSIM_SHIFT, c, a));
     const float16 zero = (float16)(0.0f);
     const float16 d_absolute = select(select(zero, zero - 1.0f, x < y), zero + 1.0f, x > y);
-    return fma(s.ssim_scale, d_ssim, s.l1_scale * d_absolute);
+    return fma(s->ssim_scale, d_ssim, s->l1_scale * d_absolute);
 }
 
 __kernel void ssim_backward(const SsimRecord s, __global const float *picture, __global const uint *photo,
@@ -61,9 +63,10 @@ __kernel void ssim_backward(const SsimRecord s, __global const float *picture, _
     int slot = 0; // of the row y
     for (int y = y_begin - SSIM_RADIUS; y < y_end + SSIM_RADIUS; y++) {
         for (int map = 0; map < SSIM_MAPS; map++) {
+            __global const float *column = maps + (map * 3 + channel) * map_plane + SSIM_MARGIN + x;
             float16 blurred = (float16)(0.0f);
-            if (y >= 0 && y < s.height)
-                blurred = blur_row(s.window, maps + (map * 3 + channel) * map_plane + y * map_row + SSIM_MARGIN + x);
+            SSIM_PREFETCH(column + clamp(y + SSIM_ROWS_AHEAD, 0, s.height - 1) * map_row + 16);
+            if (y >= 0 && y < s.height) blurred = blur_row(s.window, column + y * map_row);
             ring[slot].map[map] = ring[slot + TAPS].map[map] = blurred;
         }
         const int y_out = y - SSIM_RADIUS; // its window is complete
@@ -71,11 +74,14 @@ __kernel void ssim_backward(const SsimRecord s, __global const float *picture, _
             const int row = (channel * s.rows + y_out) * s.stride;
             float16 gradient = (float16)(0.0f);
             if (y_out < s.height) {
-                const float16 value = ssim_picture16(picture + row, x, s.width);
-                const float16 truth = ssim_photo16(photo + y_out * s.width, x, s.width, channel, s.background[channel]);
-                gradient = select(gradient, gradient16(s, ring + slot + 1, value, truth), inside);
+                const int y_ahead = min(y_out + SSIM_ROWS_AHEAD, s.height - 1);
+                SSIM_PREFETCH(picture + (channel * s.rows + y_ahead) * s.stride + x);
+                SSIM_PREFETCH(photo + y_ahead * s.stride + x);
+                const float16 value = ssim_picture16(picture + row, x, &s);
+                const float16 truth = ssim_photo16(photo + y_out * s.stride, x, &s, channel);
+                gradient = select(gradient, gradient16(&s, ring + slot + 1, value, truth), inside);
             }
-            vstore16(gradient, 0, d_picture + row + x);
+            *(__global float16 *)(d_picture + row + x) = gradient;
         }
         slot = slot == TAPS - 1 ? 0 : slot + 1;
     }

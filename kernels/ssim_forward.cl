@@ -6,7 +6,7 @@
 // ssim_backward.cl blurs again. Formulas: splat2d/loss.c (the C reference).
 //
 //     picture (3, rows, stride): planes r g b; what lies right of width and below height is not read
-//     photo   (height, width): R G B A bytes, R lowest
+//     photo   (height, stride): R G B A bytes, R lowest
 //     maps    (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN): written for rows < height; 0 in margins and right of width
 //     sums    (work-items, SSIM_SUMS): of the work-item's own pixels
 //
@@ -37,20 +37,21 @@ static void add_tap(Moments *sum, float weight, float16 x, float16 y) {
 }
 
 // A row blurred along x.
-static Moments blur_row(const float *w, SsimRow x, SsimRow y) {
+static void blur_row(const float *w, SsimRow x, SsimRow y, Moments *out) {
     Moments sum;
     sum.x = sum.y = sum.xx = sum.yy = sum.xy = (float16)(0.0f);
-#define TAP(k, distance) add_tap(&sum, w[distance], SSIM_TAP_##k(x.left, x.right), SSIM_TAP_##k(y.left, y.right))
-    TAP(0, 5), TAP(1, 4), TAP(2, 3), TAP(3, 2), TAP(4, 1), TAP(5, 0);
-    TAP(6, 1), TAP(7, 2), TAP(8, 3), TAP(9, 4), TAP(10, 5);
+#define TAP(k, distance) add_tap(&sum, w[distance], SSIM_TAP_##k(x), SSIM_TAP_##k(y))
+    TAP(m5, 5), TAP(m4, 4), TAP(m3, 3), TAP(m2, 2), TAP(m1, 1), TAP(0, 0);
+    TAP(p1, 1), TAP(p2, 2), TAP(p3, 3), TAP(p4, 4), TAP(p5, 5);
 #undef TAP
-    return sum;
+    *out = sum;
 }
 
 // Eleven rows blurred along y.
-static Moments blur_column(const float *w, const Moments *rows) {
+static void blur_column(const float *w, const Moments *rows, Moments *out) {
     Moments sum;
     sum.x = sum.y = sum.xx = sum.yy = sum.xy = (float16)(0.0f);
+#pragma unroll
     for (int k = 0; k < TAPS; k++) {
         const float weight = w[abs(k - SSIM_RADIUS)];
         sum.x = fma(weight, rows[k].x, sum.x);
@@ -59,7 +60,7 @@ static Moments blur_column(const float *w, const Moments *rows) {
         sum.yy = fma(weight, rows[k].yy, sum.yy);
         sum.xy = fma(weight, rows[k].xy, sum.xy);
     }
-    return sum;
+    *out = sum;
 }
 
 // SSIM, and its derivatives by the three blurred planes that depend on the picture.
@@ -78,15 +79,15 @@ static float16 ssim_at(Moments m, float16 *d_x, float16 *d_xx, float16 *d_xy) {
 }
 
 // One row of the three maps; strips at the left and right edge also clear the margin beside them.
-static void store_maps(const SsimRecord s, __global float *maps, int x, int y, int channel, float16 d_x, float16 d_xx,
+static void store_maps(const SsimRecord *s, __global float *maps, int x, int y, int channel, float16 d_x, float16 d_xx,
                        float16 d_xy) {
-    const int row = s.stride + 2 * SSIM_MARGIN, plane = row * s.rows;
+    const int row = s->stride + 2 * SSIM_MARGIN, plane = row * s->rows;
     const float16 values[SSIM_MAPS] = {d_x, d_xx, d_xy};
     for (int k = 0; k < SSIM_MAPS; k++) {
-        __global float *at = maps + (k * 3 + channel) * plane + y * row + SSIM_MARGIN + x;
-        vstore16(values[k], 0, at);
-        if (x == 0) vstore16((float16)(0.0f), 0, at - SSIM_MARGIN);
-        if (x + SSIM_STRIP_WIDTH == s.stride) vstore16((float16)(0.0f), 0, at + SSIM_STRIP_WIDTH);
+        __global float16 *at = (__global float16 *)(maps + (k * 3 + channel) * plane + y * row + SSIM_MARGIN + x);
+        at[0] = values[k];
+        if (x == 0) at[-1] = (float16)(0.0f);
+        if (x + SSIM_STRIP_WIDTH == s->stride) at[1] = (float16)(0.0f);
     }
 }
 
@@ -104,30 +105,32 @@ __kernel void ssim_forward(const SsimRecord s, __global const float *picture, __
     float16 sum_absolute = (float16)(0.0f), sum_square = (float16)(0.0f), sum_ssim = (float16)(0.0f);
     int slot = 0; // of the row y
     for (int y = y_begin - SSIM_RADIUS; y < y_end + SSIM_RADIUS; y++) {
-        SsimRow p = {(float16)(0.0f), (float16)(0.0f)}, q = p; // outside the picture
+        const float16 zero = (float16)(0.0f);
+        SsimRow p = {zero, zero, zero}, q = p; // outside the picture
+        const int y_ahead = clamp(y + SSIM_ROWS_AHEAD, 0, s.height - 1);
+        SSIM_PREFETCH(picture + (channel * s.rows + y_ahead) * s.stride + x + 16);
+        SSIM_PREFETCH(photo + y_ahead * s.stride + x + 16);
         if (y >= 0 && y < s.height) {
-            __global const float *picture_row = picture + (channel * s.rows + y) * s.stride;
-            __global const uint *photo_row = photo + y * s.width;
-            p.left = ssim_picture16(picture_row, x - SSIM_RADIUS, s.width);
-            p.right = ssim_picture16(picture_row, x - SSIM_RADIUS + 16, s.width);
-            q.left = ssim_photo16(photo_row, x - SSIM_RADIUS, s.width, channel, s.background[channel]);
-            q.right = ssim_photo16(photo_row, x - SSIM_RADIUS + 16, s.width, channel, s.background[channel]);
+            ssim_picture_row(picture + (channel * s.rows + y) * s.stride, x, &s, &p);
+            ssim_photo_row(photo + y * s.stride, x, &s, channel, &q);
         }
         if (y >= y_begin && y < y_end) {
-            const float16 value = SSIM_TAP_5(p.left, p.right), truth = SSIM_TAP_5(q.left, q.right);
-            const float16 clipped = clamp(value, 0.0f, 1.0f) - truth;
-            sum_absolute = fma(inside, fabs(value - truth), sum_absolute);
-            sum_square = fma(inside, clipped * clipped, sum_square);
+            const float16 clipped = clamp(p.here, 0.0f, 1.0f) - q.here;
+            sum_absolute += fabs(p.here - q.here);
+            sum_square = fma(clipped, clipped, sum_square);
         }
-        p.left -= SSIM_SHIFT, p.right -= SSIM_SHIFT;
-        q.left -= SSIM_SHIFT, q.right -= SSIM_SHIFT;
-        ring[slot] = ring[slot + TAPS] = blur_row(s.window, p, q);
+        p.before -= SSIM_SHIFT, p.here -= SSIM_SHIFT, p.after -= SSIM_SHIFT;
+        q.before -= SSIM_SHIFT, q.here -= SSIM_SHIFT, q.after -= SSIM_SHIFT;
+        blur_row(s.window, p, q, &ring[slot]);
+        ring[slot + TAPS] = ring[slot];
         const int y_out = y - SSIM_RADIUS; // its window is complete
         if (y_out >= y_begin) {
+            Moments window;
             float16 d_x, d_xx, d_xy;
-            const float16 ssim = ssim_at(blur_column(s.window, ring + slot + 1), &d_x, &d_xx, &d_xy);
+            blur_column(s.window, ring + slot + 1, &window);
+            const float16 ssim = ssim_at(window, &d_x, &d_xx, &d_xy);
             sum_ssim = fma(inside, ssim, sum_ssim);
-            store_maps(s, maps, x, y_out, channel, inside * d_x, inside * d_xx, inside * d_xy);
+            store_maps(&s, maps, x, y_out, channel, inside * d_x, inside * d_xx, inside * d_xy);
         }
         slot = slot == TAPS - 1 ? 0 : slot + 1;
     }

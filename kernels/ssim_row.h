@@ -3,14 +3,15 @@
 // Windows see all colours less SSIM_SHIFT: variances do not change by a shift, and E[x^2] - E[x]^2 loses less to rounding
 // when x is near zero. What lies outside the picture is 0 before the shift.
 //
-// A window of radius 5 round 16 pixels at columns x .. x+15 needs 26:
+// Rows are read as whole aligned vectors only (unaligned ones become many small loads on some compilers). The window of radius 5
+// round the pixels of a strip, columns x .. x+15, needs parts of three:
 //
-//      x-5                x+10 x+11           x+20
-//       |------- left -------|----- right --...|        two vectors, loaded once
-//       |---- SSIM_TAP(0) ---|
-//        |---- SSIM_TAP(1) ---|                         eleven views of them, by register moves
-//                  ...
-//                 |---- SSIM_TAP(10) ---|
+//      x-16           x               x+16
+//      |--- before ---|---- here -----|---- after ---|
+//                |-- TAP(m5) --|
+//                 |-- TAP(m4) --|                      eleven views of them, by register moves
+//                        ...
+//                          |-- TAP(p5) --|
 #ifndef SPLATLAB_KERNELS_SSIM_ROW_H
 #define SPLATLAB_KERNELS_SSIM_ROW_H
 
@@ -19,51 +20,64 @@
 #define SSIM_SHIFT 0.5f
 
 typedef struct {
-    float16 left, right; // columns x-5 .. x+10 and x+11 .. x+26 of one row
+    float16 before, here, after; // columns x-16 .. x+31 of one row
 } SsimRow;
 
-#define SSIM_TAP_0(l, r)  (l)
-#define SSIM_TAP_1(l, r)  ((float16)((l).s12345678, (l).s9abc, (l).sde, (l).sf, (r).s0))
-#define SSIM_TAP_2(l, r)  ((float16)((l).s23456789, (l).sabcd, (l).sef, (r).s01))
-#define SSIM_TAP_3(l, r)  ((float16)((l).s3456789a, (l).sbcde, (l).sf, (r).s0, (r).s12))
-#define SSIM_TAP_4(l, r)  ((float16)((l).s456789ab, (l).scdef, (r).s0123))
-#define SSIM_TAP_5(l, r)  ((float16)((l).s56789abc, (l).sde, (l).sf, (r).s0, (r).s1234))
-#define SSIM_TAP_6(l, r)  ((float16)((l).s6789abcd, (l).sef, (r).s01, (r).s2345))
-#define SSIM_TAP_7(l, r)  ((float16)((l).s789abcde, (l).sf, (r).s0, (r).s12, (r).s3456))
-#define SSIM_TAP_8(l, r)  ((float16)((l).s89abcdef, (r).s01234567))
-#define SSIM_TAP_9(l, r)  ((float16)((l).s9abc, (l).sde, (l).sf, (r).s0, (r).s12345678))
-#define SSIM_TAP_10(l, r) ((float16)((l).sabcd, (l).sef, (r).s01, (r).s23456789))
+#define SSIM_TAP_m5(r) ((float16)((r).before.sbcde, (r).before.sf, (r).here.s01234567, (r).here.s89, (r).here.sa))
+#define SSIM_TAP_m4(r) ((float16)((r).before.scdef, (r).here.s01234567, (r).here.s89ab))
+#define SSIM_TAP_m3(r) ((float16)((r).before.sde, (r).before.sf, (r).here.s01234567, (r).here.s89ab, (r).here.sc))
+#define SSIM_TAP_m2(r) ((float16)((r).before.sef, (r).here.s01234567, (r).here.s89ab, (r).here.scd))
+#define SSIM_TAP_m1(r) ((float16)((r).before.sf, (r).here.s01234567, (r).here.s89ab, (r).here.scd, (r).here.se))
+#define SSIM_TAP_0(r)  ((r).here)
+#define SSIM_TAP_p1(r) ((float16)((r).here.s12345678, (r).here.s9abc, (r).here.sde, (r).here.sf, (r).after.s0))
+#define SSIM_TAP_p2(r) ((float16)((r).here.s23456789, (r).here.sabcd, (r).here.sef, (r).after.s01))
+#define SSIM_TAP_p3(r) ((float16)((r).here.s3456789a, (r).here.sbcde, (r).here.sf, (r).after.s01, (r).after.s2))
+#define SSIM_TAP_p4(r) ((float16)((r).here.s456789ab, (r).here.scdef, (r).after.s0123))
+#define SSIM_TAP_p5(r) ((float16)((r).here.s56789abc, (r).here.sde, (r).here.sf, (r).after.s0123, (r).after.s4))
 
 // Column numbers of a vector that begins at x.
 static int16 ssim_columns(int x) { return (int16)(x) + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
 
-// Values of one picture row from column x on; 0 outside the picture.
-static float16 ssim_picture16(__global const float *row, int x, int width) {
-    if (x >= 0 && x + 16 <= width) return vload16(0, row + x);
-    float inside[16];
-    for (int i = 0; i < 16; i++) inside[i] = x + i >= 0 && x + i < width ? row[x + i] : 0.0f;
-    return vload16(0, inside);
+// Values of one picture row from column x on, a multiple of 16; 0 outside the picture.
+static float16 ssim_picture16(__global const float *row, int x, const SsimRecord *s) {
+    if (x < 0 || x >= s->width) return (float16)(0.0f);
+    const float16 value = *(__global const float16 *)(row + x);
+    return select((float16)(0.0f), value, ssim_columns(x) < s->width);
 }
 
-// Values of one channel of RGBA bytes over the background.
-static float16 ssim_over16(uint16 rgba, int channel, float background) {
+// Values of one channel of one photo row, laid over the background; as above.
+static float16 ssim_photo16(__global const uint *row, int x, const SsimRecord *s, int channel) {
+    if (x < 0 || x >= s->width) return (float16)(0.0f);
+    const uint16 rgba = *(__global const uint16 *)(row + x);
     const float over_255 = 1.0f / 255.0f;
     const float16 byte = convert_float16(rgba >> (uint)(8 * channel) & 255u);
     const float16 quotient = byte * over_255;
     const float16 colour = fma(fma(-quotient, (float16)(255.0f), byte), over_255, quotient); // byte / 255, rounded once
     const float16 alpha = convert_float16(rgba >> 24) * over_255;                            // 0 and 255 give 0 and 1
-    return fma(colour, alpha, background * (1.0f - alpha));
+    const float16 value = fma(colour, alpha, s->background[channel] * (1.0f - alpha));
+    return select((float16)(0.0f), value, ssim_columns(x) < s->width);
 }
 
-// Channel values of one photo row from column x on; 0 outside the picture.
-static float16 ssim_photo16(__global const uint *row, int x, int width, int channel, float background) {
-    if (x >= 0 && x + 16 <= width) return ssim_over16(vload16(0, row + x), channel, background);
-    uint inside[16];
-    for (int i = 0; i < 16; i++) inside[i] = x + i >= 0 && x + i < width ? row[x + i] : 0u;
-    const int16 columns = ssim_columns(x);
-    const float16 value = ssim_over16(vload16(0, inside), channel, background);
-    return select((float16)(0.0f), value, columns >= 0 && columns < width);
+static void ssim_picture_row(__global const float *row, int x, const SsimRecord *s, SsimRow *r) {
+    r->before = ssim_picture16(row, x - 16, s);
+    r->here = ssim_picture16(row, x, s);
+    r->after = ssim_picture16(row, x + 16, s);
 }
+
+static void ssim_photo_row(__global const uint *row, int x, const SsimRecord *s, int channel, SsimRow *r) {
+    r->before = ssim_photo16(row, x - 16, s, channel);
+    r->here = ssim_photo16(row, x, s, channel);
+    r->after = ssim_photo16(row, x + 16, s, channel);
+}
+
+// Asks for the line of memory that a row further down will need. A strip steps over memory by whole picture rows, wider than a
+// CPU foresees by itself: unasked, half the time would be waiting. OpenCL's prefetch() does nothing on PoCL.
+#if defined(POCL_DEVICE_ADDRESS_BITS) && !defined(__NVPTX__) // PoCL on a CPU; its compiler is clang
+#define SSIM_PREFETCH(pointer) __builtin_prefetch(pointer)
+#else
+#define SSIM_PREFETCH(pointer) prefetch(pointer, 1)
+#endif
+#define SSIM_ROWS_AHEAD 4
 
 // Sum of the lanes, always in this order.
 static float ssim_lane_sum(float16 v) {

@@ -49,22 +49,32 @@ void opencl_loss_destroy(OpenclLoss *loss) {
     mem_free(loss);
 }
 
+static int padded(int n) { return (n + TILE_SIZE - 1) / TILE_SIZE * TILE_SIZE; }
+
+static void photo_fill(const Image8 *image, uint8_t *rgba) {
+    size_t width = (size_t)image->width, stride = (size_t)padded(image->width);
+    for (int y = 0; y < image->height; y++) {
+        const uint8_t *in = image->bytes + (size_t)y * width * (size_t)image->channels;
+        uint8_t *out = rgba + 4 * (size_t)y * stride;
+        for (size_t x = 0; x < width; x++, in += image->channels, out += 4) {
+            for (int c = 0; c < 3; c++) out[c] = in[image->channels == 1 ? 0 : c];
+            out[3] = image->channels == 4 ? in[3] : 255;
+        }
+        for (size_t i = 0; i < 4 * (stride - width); i++) out[i] = 0;
+    }
+}
+
 bool opencl_photo_create(Gpu *gpu, const Image8 *image, GpuBuffer **photo) {
     assert(image->channels == 1 || image->channels == 3 || image->channels == 4);
-    size_t pixels = (size_t)image->width * (size_t)image->height;
     void *mapped;
-    if (!gpu_buffer_create(gpu, "photograph", 4 * pixels, photo)) return false;
+    if (!gpu_buffer_create(gpu, "photograph", 4 * (size_t)padded(image->width) * (size_t)image->height, photo))
+        return false;
     if (!gpu_buffer_map(*photo, GPU_WRITE, &mapped)) {
         gpu_buffer_destroy(*photo);
         *photo = NULL;
         return false;
     }
-    uint8_t *rgba = mapped;
-    const uint8_t *in = image->bytes;
-    for (size_t i = 0; i < pixels; i++, in += image->channels) {
-        for (int c = 0; c < 3; c++) rgba[4 * i + c] = in[image->channels == 1 ? 0 : c];
-        rgba[4 * i + 3] = image->channels == 4 ? in[3] : 255;
-    }
+    photo_fill(image, mapped);
     return gpu_buffer_unmap(*photo);
 }
 
@@ -74,8 +84,8 @@ static int strips(int width, int height) {
 
 bool opencl_loss_run(OpenclLoss *loss, DevicePicture picture, GpuBuffer *photo, const float background[3],
                      float lambda) {
-    assert(gpu_buffer_bytes(photo) == 4 * (size_t)picture.width * (size_t)picture.height);
-    assert(picture.stride % SSIM_STRIP_WIDTH == 0 && picture.stride >= picture.width && picture.rows >= picture.height);
+    assert(gpu_buffer_bytes(photo) == 4 * (size_t)picture.stride * (size_t)picture.height);
+    assert(picture.stride == padded(picture.width) && picture.rows == padded(picture.height));
     loss->values = 3.0 * picture.width * picture.height;
     loss->lambda = lambda;
     loss->items = strips(picture.stride, picture.height);

@@ -12,7 +12,8 @@ typedef struct OpenclLoss OpenclLoss;
 bool opencl_loss_create(Gpu *gpu, OpenclLoss **loss);
 void opencl_loss_destroy(OpenclLoss *loss); // accepts NULL
 
-// A photograph on the device as RGBA bytes (R lowest, A 255 where the file has none), 4 bytes a pixel, rows of width pixels.
+// A photograph on the device as RGBA bytes (R lowest, A 255 where the file has none), 4 bytes a pixel, rows padded with zeros to
+// a multiple of TILE_SIZE pixels like the picture's.
 bool opencl_photo_create(Gpu *gpu, const Image8 *image, GpuBuffer **photo);
 
 // Fills picture.d_rgb with d loss / d rgb (the picture as it is, not clipped; zero in the padding), and keeps partial sums on
