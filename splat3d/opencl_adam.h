@@ -1,4 +1,5 @@
-// opencl_adam.h - Adam on the device, one launch per field, and the guards that stand with it: quaternions stay unit, numbers stay finite.
+// opencl_adam.h - Adam on the device, one launch per field, and the guards that stand with it: quaternions stay unit, numbers
+// stay finite.
 #ifndef SPLATLAB_SPLAT3D_OPENCL_ADAM_H
 #define SPLATLAB_SPLAT3D_OPENCL_ADAM_H
 
@@ -9,13 +10,15 @@ typedef struct OpenclAdam OpenclAdam;
 bool opencl_adam_create(Gpu *gpu, OpenclAdam **adam);
 void opencl_adam_destroy(OpenclAdam *adam); // accepts NULL
 
-// Step number `step` (1 is the first): parameters, m and v change by the gradient. learning_rate: one per field; fields of SH degree above
-// active_sh_degree are left alone. Quaternions are renormalised afterwards. (beta 0.9, 0.999; epsilon 1e-15.)
-// A splat whose gradient or new parameter is not finite is left unchanged and noted.
+// Step number `step` (1 is the first): parameters, m and v change by the gradient (Kingma & Ba 2015, algorithm 1; beta 0.9,
+// 0.999; epsilon 1e-15; the order of roundings stands in kernels/adam.cl). learning_rate: one per field; fields of SH degree
+// above active_sh_degree are left alone, moments too. Quaternions are renormalised afterwards. A number whose gradient or new
+// value is not finite stays as it is, with its moments, and its splat is noted. Enqueues; does not wait.
 bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
                       const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v);
 
-// The lowest index of a splat that was noted by a step since the last call, and its field; *splat = -1 if all was well. Waits for the device.
+// The lowest index of a splat that was noted by a step since the last call, and the first of its fields; *splat = -1 if
+// all was well. Waits for the device.
 bool opencl_adam_check(OpenclAdam *adam, int *splat, GaussianFieldId *field);
 
 #endif

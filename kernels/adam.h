@@ -1,0 +1,22 @@
+// adam.h - arguments of kernels/adam.cl, shared with splat3d/opencl_adam.c.
+#ifndef SPLATLAB_KERNELS_ADAM_H
+#define SPLATLAB_KERNELS_ADAM_H
+
+#define ADAM_LANES      16 // numbers that one work-item does
+#define ADAM_FIELD_BITS 3  // of the word that says which number was not finite: splat << ADAM_FIELD_BITS | field
+#define ADAM_ALL_FINITE 0xffffffffu // that word when there is none
+
+// A kernel argument by value. Every constant is computed in double precision and rounded once.
+typedef struct {
+    int count;             // numbers of the field: N x width
+    int width;             // numbers of one splat
+    int field;             // GaussianFieldId
+    float beta1, beta2;    // 0.9, 0.999
+    float one_minus_beta1; // of the exact betas, not of the rounded ones
+    float one_minus_beta2;
+    float rate;             // learning rate / (1 - beta1^step)
+    float over_root_v_part; // 1 / sqrt(1 - beta2^step)
+    float epsilon;          // 1e-15
+} AdamRecord;
+
+#endif

@@ -1,0 +1,83 @@
+// The host side of kernels/adam.cl. The reference is splat2d/adam.c.
+
+#include "splat3d/opencl_adam.h"
+
+#include "kernels/adam.h"
+#include "lab/base/mem.h"
+#include "splat2d/adam.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdint.h>
+
+enum { GROUP = 64 }; // work-items
+_Static_assert(FIELD_COUNT <= 1 << ADAM_FIELD_BITS, "a field's number does not fit into the word that notes it");
+
+struct OpenclAdam {
+    GpuProgram *program;
+    GpuKernel *adam, *normalize;
+    GpuBuffer *not_finite; // one word, as in kernels/adam.cl
+};
+
+static bool forget_noted(OpenclAdam *a) {
+    const uint32_t none = ADAM_ALL_FINITE;
+    return gpu_buffer_write(a->not_finite, &none, sizeof none);
+}
+
+bool opencl_adam_create(Gpu *gpu, OpenclAdam **adam) {
+    OpenclAdam *a = mem_alloc(1, sizeof *a);
+    bool good = gpu_program_create(gpu, "adam.cl", "", &a->program) && gpu_kernel(a->program, "adam", &a->adam) &&
+                gpu_kernel(a->program, "normalize_quaternions", &a->normalize) &&
+                gpu_buffer_create(gpu, "Adam's note", sizeof(uint32_t), &a->not_finite) && forget_noted(a);
+    *adam = good ? a : NULL;
+    if (!good) opencl_adam_destroy(a);
+    return good;
+}
+
+void opencl_adam_destroy(OpenclAdam *adam) {
+    if (!adam) return;
+    gpu_buffer_destroy(adam->not_finite);
+    gpu_program_destroy(adam->program);
+    mem_free(adam);
+}
+
+static AdamRecord adam_record(const AdamRule *rule, int step) {
+    return (AdamRecord){
+        .beta1 = (float)rule->beta1,
+        .beta2 = (float)rule->beta2,
+        .one_minus_beta1 = (float)(1 - rule->beta1),
+        .one_minus_beta2 = (float)(1 - rule->beta2),
+        .rate = (float)(rule->learning_rate / (1 - pow(rule->beta1, step))),
+        .over_root_v_part = (float)(1 / sqrt(1 - pow(rule->beta2, step))),
+        .epsilon = (float)rule->epsilon,
+    };
+}
+
+bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
+                      const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v) {
+    assert(step >= 1);
+    assert(gradient->count == model->count && m->count == model->count && v->count == model->count);
+    for (int f = 0; f < FIELD_COUNT; f++) {
+        if (GAUSSIAN_FIELDS[f].sh_degree > active_sh_degree || !model->field[f]) continue;
+        AdamRule rule = adam_rule_default((double)learning_rate[f]);
+        AdamRecord record = adam_record(&rule, step);
+        record.width = GAUSSIAN_FIELDS[f].width;
+        record.count = model->count * record.width;
+        record.field = f;
+        size_t items = ((size_t)record.count + ADAM_LANES - 1) / ADAM_LANES;
+        if (!gpu_launch(adam->adam, gpu_range(items, GROUP), gpu_record_arg(&record, sizeof record),
+                        gpu_buffer_arg(gradient->field[f]), gpu_buffer_arg(model->field[f]),
+                        gpu_buffer_arg(m->field[f]), gpu_buffer_arg(v->field[f]), gpu_buffer_arg(adam->not_finite)))
+            return false;
+    }
+    return gpu_launch(adam->normalize, gpu_range((size_t)model->count, GROUP), gpu_int_arg(model->count),
+                      gpu_buffer_arg(model->field[FIELD_QUAT]));
+}
+
+bool opencl_adam_check(OpenclAdam *adam, int *splat, GaussianFieldId *field) {
+    uint32_t word;
+    if (!gpu_buffer_read(adam->not_finite, &word, sizeof word)) return false;
+    *splat = word == ADAM_ALL_FINITE ? -1 : (int)(word >> ADAM_FIELD_BITS);
+    *field = word == ADAM_ALL_FINITE ? 0 : (GaussianFieldId)(word & ((1u << ADAM_FIELD_BITS) - 1));
+    return word == ADAM_ALL_FINITE || forget_noted(adam);
+}
