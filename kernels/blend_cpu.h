@@ -14,7 +14,6 @@
 #define BLOCKS_PER_TILE (BLOCKS_PER_ROW * BLOCKS_PER_ROW)
 #define LANE_X          ((float16)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3))
 #define LANE_Y          ((float16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3))
-#define LOG2_ALPHA_MIN  -7.99435344f // log2(ALPHA_MIN)
 
 // Index of the block's first pixel in a plane of the picture.
 static inline size_t block_origin(int tile_x, int tile_y, int block, int stride) {

@@ -7,8 +7,7 @@
 
 #include "exp2_fast.h"
 
-#define TILE_PIXELS    (TILE_SIZE * TILE_SIZE)
-#define LOG2_ALPHA_MIN -7.99435344f // log2(ALPHA_MIN)
+#define TILE_PIXELS (TILE_SIZE * TILE_SIZE)
 
 // 4x4 block of a pixel of the tile, 0..15, as in the masks.
 static inline int pixel_block(int x, int y) { return y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) + x / BLOCK_SIZE; }

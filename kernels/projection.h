@@ -14,8 +14,7 @@
 #define SPLATLAB_KERNELS_PROJECTION_H
 
 #define LOG2_E          1.44269504f
-#define LOG2_ALPHA_MIN  -7.99435344f // log2(ALPHA_MIN)
-#define QUAT_LENGTH_MIN 1e-18f       // a shorter quaternion has no direction: such a splat is not drawn
+#define QUAT_LENGTH_MIN 1e-18f // a shorter quaternion has no direction: such a splat is not drawn
 
 typedef struct {
     float3 point;      // mean in camera axes

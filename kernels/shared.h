@@ -11,6 +11,7 @@
 #define BLOCK_SIZE         4               // px; a tile is 4 x 4 blocks of 4 x 4 pixels, one bit each in a pair's mask
 #define ALPHA_MAX          0.99f           // alpha' = min(ALPHA_MAX, opacity * g)
 #define ALPHA_MIN          (1.0f / 255.0f) // a smaller alpha' is skipped
+#define LOG2_ALPHA_MIN     -7.99435344f    // log2(ALPHA_MIN)
 #define TRANSMITTANCE_STOP 1e-4f           // a splat is blended while T >= this before it
 #define LOW_PASS_PX2       0.3f            // px^2 added to the diagonal of Sigma' (EWA low-pass filter)
 #define NEAR_DEPTH         0.2f            // world units; nearer splats are not drawn
