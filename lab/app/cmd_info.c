@@ -140,9 +140,11 @@ static int cmd_info(int argc, char **argv) {
         fail_usage("info: of what? splatlab info SCENE|MODEL.ply|RUN");
         return command_failed();
     }
-    json_t *facts = NULL;
-    if (!find_facts(path, &options, &facts)) return command_failed();
-    json_object_set_new(facts, "path", json_string(path));
+    json_t *found = NULL;
+    if (!find_facts(path, &options, &found)) return command_failed();
+    json_t *facts = json_pack("{ss*}", "path", path);
+    json_object_update(facts, found);
+    json_decref(found);
     if (options.json)
         json_print(facts);
     else
