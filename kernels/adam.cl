@@ -16,7 +16,7 @@
 // One work-item: ADAM_LANES numbers; a whole vector, so that the rare case costs one test for sixteen numbers and compilers have
 // nothing to guess. It runs at the speed of memory: 28 bytes a number. Local memory: none.
 // Reference: splat2d/adam.c. Test: tests/splat3d/test_opencl_adam.c.
-#include "adam.h"
+#include "adam_record.h"
 
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -2,7 +2,7 @@
 
 #include "splat3d/opencl_adam.h"
 
-#include "kernels/adam.h"
+#include "kernels/adam_record.h"
 #include "lab/base/mem.h"
 #include "splat2d/adam.h"
 

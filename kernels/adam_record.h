@@ -1,6 +1,6 @@
-// adam.h - arguments of kernels/adam.cl, shared with splat3d/opencl_adam.c.
-#ifndef SPLATLAB_KERNELS_ADAM_H
-#define SPLATLAB_KERNELS_ADAM_H
+// adam_record.h - arguments of kernels/adam.cl, shared with splat3d/opencl_adam.c.
+#ifndef SPLATLAB_KERNELS_ADAM_RECORD_H
+#define SPLATLAB_KERNELS_ADAM_RECORD_H
 
 #define ADAM_LANES      16 // numbers that one work-item does
 #define ADAM_FIELD_BITS 3  // of the word that says which number was not finite: splat << ADAM_FIELD_BITS | field
