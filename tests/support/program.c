@@ -49,8 +49,10 @@ ProgramResult program_run(const char *first, ...) {
         arguments[count++] = (char *)a;
     va_end(more);
 
-    const char *out = support_path(support_scratch(), "program.out");
-    const char *err = support_path(support_scratch(), "program.err");
+    // Not support_path(): its rotating buffers may hold the caller's paths.
+    char out[4096], err[4096];
+    snprintf(out, sizeof out, "%s/program.out", support_scratch());
+    snprintf(err, sizeof err, "%s/program.err", support_scratch());
     ProgramResult result = {.exit_code = spawn_and_wait(arguments[0], arguments, out, err)};
     size_t size;
     mem_free(old_out);
