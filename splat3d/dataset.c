@@ -36,11 +36,13 @@ void dataset_hold_out(Dataset *dataset) {
         dataset->views[i].held_out = dataset->view_count > 1 && i % HELD_OUT_EVERY == 0;
 }
 
-// Is there a scale s with |width - s camera_width| <= 1 and the same for the height? (Who made the picture smaller rounded somehow.)
+// Is there a scale s, 1 or another, with |width - s camera_width| < 1 and the same for the height? (Who made the picture
+// smaller rounded somehow; one side of the full length means that nothing was made smaller.)
 static bool same_shape(int width, int height, int camera_width, int camera_height) {
+    if (width == camera_width || height == camera_height) return width == camera_width && height == camera_height;
     double low_x = (width - 1.0) / camera_width, high_x = (width + 1.0) / camera_width;
     double low_y = (height - 1.0) / camera_height, high_y = (height + 1.0) / camera_height;
-    return low_x <= high_y && low_y <= high_x;
+    return low_x < high_y && low_y < high_x;
 }
 
 static bool fit_image(void *context, int index) {

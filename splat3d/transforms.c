@@ -134,7 +134,7 @@ static bool read_frame(const Frame *f, View *view) {
     if (!*name) return fail("%s: \"file_path\" is empty", f->where);
     view->name = mem_text(name);
     view->path = find_image(f->folder, name);
-    if (!file_exists(view->path))
+    if (!file_exists(view->path) || file_is_folder(view->path))
         return fail("%s: there is no image %s, with or without the endings .png, .jpg, .jpeg; is it in its place?",
                     f->where, view->path);
     return read_camera(f, view);
