@@ -1,6 +1,6 @@
 #include "lab/base/mem.h"
 #include "lab/gpu/gpu.h"
-#include "tests/support/program.h"
+#include "tests/support/command.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -11,8 +11,8 @@ static void the_list_is_that_of_the_library(void **state) {
     GpuInfo *infos;
     int count;
     assert_true(gpu_list(&infos, &count));
-    ProgramResult r = program_run("devices", "--json", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("devices", "--json", NULL);
+    command_expect(&r, 0);
     json_t *root = json_loads(r.out, 0, NULL);
     assert_non_null(root);
     json_t *list = json_object_get(root, "devices");
@@ -24,8 +24,8 @@ static void the_list_is_that_of_the_library(void **state) {
         assert_string_equal(json_string_value(json_object_get(device, "type")), infos[i].is_cpu ? "cpu" : "gpu");
         assert_true((size_t)json_integer_value(json_object_get(device, "memory_bytes")) == infos[i].memory_bytes);
     }
-    r = program_run("devices", NULL);
-    program_expect(&r, 0);
+    r = command_run("devices", NULL);
+    command_expect(&r, 0);
     for (int i = 0; i < count; i++) assert_non_null(strstr(r.out, infos[i].name));
     json_decref(root);
     mem_free(infos);

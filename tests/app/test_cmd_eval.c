@@ -2,8 +2,8 @@
 #include "lab/io/file.h"
 #include "lab/io/image_io.h"
 #include "splat3d/ply.h"
+#include "tests/support/command.h"
 #include "tests/support/little_scene.h"
-#include "tests/support/program.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -30,8 +30,8 @@ static int make_files(void **state) {
     return good ? 0 : -1;
 }
 
-static json_t *parse(const ProgramResult *result) {
-    program_expect(result, 0);
+static json_t *parse(const CommandResult *result) {
+    command_expect(result, 0);
     json_t *root = json_loads(result->out, 0, NULL); // exactly one document: anything behind it is refused
     assert_non_null(root);
     return root;
@@ -48,7 +48,7 @@ static void the_true_model_scores_as_high_as_rounding_allows(void **state) {
     (void)state;
     static const char *const ways[] = {"--reference", "--quiet"};
     for (int w = 0; w < 2; w++) {
-        ProgramResult r = program_run("eval", model, "--scene", scene, "--json", ways[w], NULL);
+        CommandResult r = command_run("eval", model, "--scene", scene, "--json", ways[w], NULL);
         json_t *root = parse(&r);
         support_near(number(root, "psnr"), 60, 5, "PSNR");
         assert_true(number(root, "ssim") > 0.99);
@@ -71,7 +71,7 @@ static void a_wrong_model_scores_low(void **state) {
     const char *path = support_path(support_scratch(), "wrong.ply");
     assert_true(ply_save(path, &splats));
     gaussians_destroy(&splats);
-    ProgramResult r = program_run("eval", path, "--scene", scene, "--json", "--reference", NULL);
+    CommandResult r = command_run("eval", path, "--scene", scene, "--json", "--reference", NULL);
     json_t *root = parse(&r);
     assert_true(number(root, "psnr") < 30);
     json_decref(root);
@@ -79,8 +79,8 @@ static void a_wrong_model_scores_low(void **state) {
 
 static void the_table_names_views_means_and_protocol(void **state) {
     (void)state;
-    ProgramResult r = program_run("eval", model, "--scene", scene, "--reference", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("eval", model, "--scene", scene, "--reference", NULL);
+    command_expect(&r, 0);
     assert_non_null(strstr(r.out, "view_8.png"));
     assert_non_null(strstr(r.out, "\nmean"));
     assert_non_null(strstr(r.out, "\nprotocol: "));
@@ -89,11 +89,11 @@ static void the_table_names_views_means_and_protocol(void **state) {
 // At half size the photograph is a mean of pixels, the render a sample: close, but no longer equal.
 static void a_run_brings_scene_and_downscale_and_the_command_line_wins(void **state) {
     (void)state;
-    ProgramResult r = program_run("eval", run, "--json", "--reference", NULL);
+    CommandResult r = command_run("eval", run, "--json", "--reference", NULL);
     json_t *half = parse(&r);
-    r = program_run("eval", model, "--scene", scene, "--downscale", "2", "--json", "--reference", NULL);
+    r = command_run("eval", model, "--scene", scene, "--downscale", "2", "--json", "--reference", NULL);
     json_t *same = parse(&r);
-    r = program_run("eval", run, "--downscale", "1", "--json", "--reference", NULL);
+    r = command_run("eval", run, "--downscale", "1", "--json", "--reference", NULL);
     json_t *full = parse(&r);
     assert_true(number(half, "psnr") == number(same, "psnr"));
     assert_true(number(half, "psnr") < 50 && number(full, "psnr") > 50);
@@ -105,8 +105,8 @@ static void a_run_brings_scene_and_downscale_and_the_command_line_wins(void **st
 static void the_contact_sheet_is_written(void **state) {
     (void)state;
     const char *path = support_path(support_scratch(), "sheet.png");
-    ProgramResult r = program_run("eval", model, "--scene", scene, "--reference", "--contact-sheet", path, NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("eval", model, "--scene", scene, "--reference", "--contact-sheet", path, NULL);
+    command_expect(&r, 0);
     int width, height, channels;
     assert_true(image_probe(path, &width, &height, &channels));
     assert_int_equal(width, 3 * LITTLE_WIDTH + 8);
@@ -115,32 +115,32 @@ static void the_contact_sheet_is_written(void **state) {
 
 static void wrong_usage_ends_with_exit_code_2(void **state) {
     (void)state;
-    ProgramResult r = program_run("eval", model, NULL);
-    program_expect_error(&r, 2, "--scene", NULL);
-    r = program_run("eval", model, "--scene", scene, "--background", "mauve", NULL);
-    program_expect_error(&r, 2, "mauve", NULL);
-    r = program_run("eval", model, "--scene", scene, "--background", "0,0,2", NULL);
-    program_expect_error(&r, 2, "0,0,2", NULL);
-    r = program_run("eval", model, "--scene", scene, "--downscale", "0", NULL);
-    program_expect_error(&r, 2, "--downscale 0", NULL);
-    r = program_run("eval", model, "--scene", scene, "--contact-sheet", "sheet.txt", NULL);
-    program_expect_error(&r, 2, "sheet.txt", ".png", NULL);
-    r = program_run("eval", model, "--scene", scene, "--device", "abacus", NULL);
-    program_expect_error(&r, 2, "abacus", NULL);
+    CommandResult r = command_run("eval", model, NULL);
+    command_expect_error(&r, 2, "--scene", NULL);
+    r = command_run("eval", model, "--scene", scene, "--background", "mauve", NULL);
+    command_expect_error(&r, 2, "mauve", NULL);
+    r = command_run("eval", model, "--scene", scene, "--background", "0,0,2", NULL);
+    command_expect_error(&r, 2, "0,0,2", NULL);
+    r = command_run("eval", model, "--scene", scene, "--downscale", "0", NULL);
+    command_expect_error(&r, 2, "--downscale 0", NULL);
+    r = command_run("eval", model, "--scene", scene, "--contact-sheet", "sheet.txt", NULL);
+    command_expect_error(&r, 2, "sheet.txt", ".png", NULL);
+    r = command_run("eval", model, "--scene", scene, "--device", "abacus", NULL);
+    command_expect_error(&r, 2, "abacus", NULL);
 }
 
 static void what_cannot_be_had_ends_with_exit_code_1(void **state) {
     (void)state;
-    ProgramResult r = program_run("eval", "none.ply", "--scene", scene, NULL);
-    program_expect_error(&r, 1, "there is no none.ply", NULL);
-    r = program_run("eval", model, "--scene", "nowhere", NULL);
-    program_expect_error(&r, 1, "nowhere", NULL);
-    r = program_run("eval", scene, "--scene", scene, NULL);
-    program_expect_error(&r, 1, "is no run", NULL);
-    r = program_run("eval", "README.md", "--scene", scene, NULL);
-    program_expect_error(&r, 1, "README.md", NULL);
-    r = program_run("eval", model, "--scene", scene, "--contact-sheet", "/nonexistent/sheet.png", NULL);
-    program_expect_error(&r, 1, "/nonexistent", NULL);
+    CommandResult r = command_run("eval", "none.ply", "--scene", scene, NULL);
+    command_expect_error(&r, 1, "there is no none.ply", NULL);
+    r = command_run("eval", model, "--scene", "nowhere", NULL);
+    command_expect_error(&r, 1, "nowhere", NULL);
+    r = command_run("eval", scene, "--scene", scene, NULL);
+    command_expect_error(&r, 1, "is no run", NULL);
+    r = command_run("eval", "README.md", "--scene", scene, NULL);
+    command_expect_error(&r, 1, "README.md", NULL);
+    r = command_run("eval", model, "--scene", scene, "--contact-sheet", "/nonexistent/sheet.png", NULL);
+    command_expect_error(&r, 1, "/nonexistent", NULL);
 }
 
 static void a_photograph_that_is_gone_is_named(void **state) {
@@ -148,8 +148,8 @@ static void a_photograph_that_is_gone_is_named(void **state) {
     const char *damaged = support_path(support_scratch(), "damaged");
     little_scene_write(damaged);
     assert_int_equal(unlink(support_path(damaged, "images/view_3.png")), 0);
-    ProgramResult r = program_run("eval", model, "--scene", damaged, NULL);
-    program_expect_error(&r, 1, "view_3.png", NULL);
+    CommandResult r = command_run("eval", model, "--scene", damaged, NULL);
+    command_expect_error(&r, 1, "view_3.png", NULL);
 }
 
 static void a_run_without_a_model_says_how_to_go_on(void **state) {
@@ -157,8 +157,8 @@ static void a_run_without_a_model_says_how_to_go_on(void **state) {
     const char *unfinished = support_path(support_scratch(), "unfinished");
     assert_true(file_make_folder(unfinished));
     assert_true(file_write(support_path(unfinished, "options.json"), "{\"scene\": \"x\"}", 14));
-    ProgramResult r = program_run("eval", unfinished, NULL);
-    program_expect_error(&r, 1, "no model.ply", "--resume", NULL);
+    CommandResult r = command_run("eval", unfinished, NULL);
+    command_expect_error(&r, 1, "no model.ply", "--resume", NULL);
 }
 
 int main(void) {

@@ -1,8 +1,8 @@
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
 #include "splat3d/ply.h"
+#include "tests/support/command.h"
 #include "tests/support/little_scene.h"
-#include "tests/support/program.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -37,8 +37,8 @@ static int make_files(void **state) {
 }
 
 static json_t *info_json(const char *path, const char *option) {
-    ProgramResult r = program_run("info", path, "--json", option, NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("info", path, "--json", option, NULL);
+    command_expect(&r, 0);
     json_t *root = json_loads(r.out, 0, NULL); // exactly one document: anything behind it is refused
     assert_non_null(root);
     return root;
@@ -76,15 +76,15 @@ static void a_scene_is_counted(void **state) {
     assert_int_equal(integer(json_object_get(root, "resolutions_px"), "48x32"), LITTLE_VIEWS);
     support_near(json_real_value(json_object_get(root, "extent_world")), expected_extent(), 1e-9, "extent");
     json_decref(root);
-    ProgramResult r = program_run("info", scene, "--downscale", "2", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("info", scene, "--downscale", "2", NULL);
+    command_expect(&r, 0);
     assert_non_null(strstr(r.out, "24x16"));
 }
 
 static void training_memory_is_944_bytes_a_splat_of_degree_3_and_more(void **state) {
     (void)state;
-    ProgramResult r = program_run("info", scene, "--json", "--memory", "--splats", "1000", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("info", scene, "--json", "--memory", "--splats", "1000", NULL);
+    command_expect(&r, 0);
     json_t *root = json_loads(r.out, 0, NULL);
     const json_t *memory = json_object_get(root, "training_memory");
     assert_int_equal(integer(memory, "learned_per_splat_bytes"), 944);
@@ -127,14 +127,14 @@ static void a_run_shows_its_model_and_its_options(void **state) {
 
 static void what_is_no_scene_and_no_model_fails_with_a_hint(void **state) {
     (void)state;
-    ProgramResult r = program_run("info", text, NULL);
-    program_expect_error(&r, 1, "notes.txt", "no PLY file", "give a scene's folder", NULL);
-    r = program_run("info", empty, NULL);
-    program_expect_error(&r, 1, "empty", NULL);
-    r = program_run("info", cut, "--json", NULL);
-    program_expect_error(&r, 1, "cut.ply", NULL);
-    r = program_run("info", "no/such/thing", NULL);
-    program_expect_error(&r, 1, "there is no no/such/thing", NULL);
+    CommandResult r = command_run("info", text, NULL);
+    command_expect_error(&r, 1, "notes.txt", "no PLY file", "give a scene's folder", NULL);
+    r = command_run("info", empty, NULL);
+    command_expect_error(&r, 1, "empty", NULL);
+    r = command_run("info", cut, "--json", NULL);
+    command_expect_error(&r, 1, "cut.ply", NULL);
+    r = command_run("info", "no/such/thing", NULL);
+    command_expect_error(&r, 1, "there is no no/such/thing", NULL);
 }
 
 static void a_cloud_of_points_is_told_from_a_model(void **state) {

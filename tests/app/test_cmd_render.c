@@ -4,8 +4,8 @@
 #include "lab/io/image_io.h"
 #include "splat3d/ply.h"
 #include "splat3d/reference.h"
+#include "tests/support/command.h"
 #include "tests/support/little_scene.h"
-#include "tests/support/program.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -62,9 +62,9 @@ static double largest_difference(const ImageF *a, const ImageF *b) {
 static void a_camera_file_gives_the_references_floats(void **state) {
     (void)state;
     const char *path = support_path(support_scratch(), "out.exr");
-    ProgramResult r = program_run("render", model, "--camera", camera_file, "-o", path, "--background", "0.2,0.4,0.6",
+    CommandResult r = command_run("render", model, "--camera", camera_file, "-o", path, "--background", "0.2,0.4,0.6",
                                   "--reference", NULL);
-    program_expect(&r, 0);
+    command_expect(&r, 0);
     char *line = mem_format("%s\n", path);
     assert_string_equal(r.out, line);
     mem_free(line);
@@ -81,8 +81,8 @@ static void a_camera_file_gives_the_references_floats(void **state) {
 static void the_device_agrees_with_the_reference(void **state) {
     (void)state;
     const char *path = support_path(support_scratch(), "device.exr");
-    ProgramResult r = program_run("render", model, "--scene", scene, "--view", "view_3", "-o", path, NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("render", model, "--scene", scene, "--view", "view_3", "-o", path, NULL);
+    command_expect(&r, 0);
     Picture expected = expected_picture(render_settings_default());
     ImageF image = load(path, 3);
     support_near(largest_difference(&image, &expected.rgb), 0, 1e-4, "difference");
@@ -93,8 +93,8 @@ static void the_device_agrees_with_the_reference(void **state) {
 static void alpha_is_the_fourth_channel(void **state) {
     (void)state;
     const char *path = support_path(support_scratch(), "alpha.exr");
-    ProgramResult r = program_run("render", model, "--camera", camera_file, "-o", path, "--alpha", "--reference", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("render", model, "--camera", camera_file, "-o", path, "--alpha", "--reference", NULL);
+    command_expect(&r, 0);
     Picture expected = expected_picture(render_settings_default());
     ImageF image = load(path, 4);
     for (int i = 0; i < LITTLE_WIDTH * LITTLE_HEIGHT; i++) {
@@ -110,8 +110,8 @@ static void alpha_is_the_fourth_channel(void **state) {
 static void depth_is_in_world_units_in_a_float_file(void **state) {
     (void)state;
     const char *path = support_path(support_scratch(), "depth.exr");
-    ProgramResult r = program_run("render", model, "--camera", camera_file, "-o", path, "--depth", "--reference", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("render", model, "--camera", camera_file, "-o", path, "--depth", "--reference", NULL);
+    command_expect(&r, 0);
     ImageF image = load(path, 1);
     float nearest = INFINITY, farthest = 0;
     for (int i = 0; i < LITTLE_WIDTH * LITTLE_HEIGHT; i++) {
@@ -124,8 +124,8 @@ static void depth_is_in_world_units_in_a_float_file(void **state) {
     imagef_destroy(&image);
 
     path = support_path(support_scratch(), "depth.png");
-    r = program_run("render", model, "--camera", camera_file, "-o", path, "--depth", "--reference", NULL);
-    program_expect(&r, 0);
+    r = command_run("render", model, "--camera", camera_file, "-o", path, "--depth", "--reference", NULL);
+    command_expect(&r, 0);
     image = load(path, 1);
     float brightest = 0;
     for (int i = 0; i < LITTLE_WIDTH * LITTLE_HEIGHT; i++) brightest = fmaxf(brightest, image.values[i]);
@@ -136,9 +136,9 @@ static void depth_is_in_world_units_in_a_float_file(void **state) {
 static void an_orbit_is_a_file_per_frame(void **state) {
     (void)state;
     const char *path = support_path(support_scratch(), "turn.png");
-    ProgramResult r =
-        program_run("render", model, "--scene", scene, "--orbit", "3", "-o", path, "--json", "--reference", NULL);
-    program_expect(&r, 0);
+    CommandResult r =
+        command_run("render", model, "--scene", scene, "--orbit", "3", "-o", path, "--json", "--reference", NULL);
+    command_expect(&r, 0);
     json_t *root = json_loads(r.out, 0, NULL);
     const json_t *files = json_object_get(root, "files");
     assert_int_equal(json_array_size(files), 3);
@@ -165,9 +165,9 @@ static void downscale_makes_smaller_pictures(void **state) {
     const char *path = support_path(support_scratch(), "small.png");
     static const char *const froms[][2] = {{"--view", "view_3"}, {"--camera", camera_file}};
     for (int i = 0; i < 2; i++) {
-        ProgramResult r = program_run("render", model, "--scene", scene, froms[i][0], froms[i][1], "-o", path,
+        CommandResult r = command_run("render", model, "--scene", scene, froms[i][0], froms[i][1], "-o", path,
                                       "--downscale", "2", "--reference", NULL);
-        program_expect(&r, 0);
+        command_expect(&r, 0);
         int width, height, channels;
         assert_true(image_probe(path, &width, &height, &channels));
         assert_int_equal(width, LITTLE_WIDTH / 2);
@@ -177,44 +177,44 @@ static void downscale_makes_smaller_pictures(void **state) {
 
 static void a_view_that_is_not_there_is_answered_with_the_nearest(void **state) {
     (void)state;
-    ProgramResult r = program_run("render", model, "--scene", scene, "--view", "view_33.png", "-o", "x.png", NULL);
-    program_expect_error(&r, 1, "no view 'view_33.png'", "nearest: view_3.png", NULL);
-    r = program_run("render", model, "--scene", scene, "--view", "banana", "-o", "x.png", NULL);
-    program_expect_error(&r, 1, "its 9 views go from view_0.png to view_8.png", NULL);
+    CommandResult r = command_run("render", model, "--scene", scene, "--view", "view_33.png", "-o", "x.png", NULL);
+    command_expect_error(&r, 1, "no view 'view_33.png'", "nearest: view_3.png", NULL);
+    r = command_run("render", model, "--scene", scene, "--view", "banana", "-o", "x.png", NULL);
+    command_expect_error(&r, 1, "its 9 views go from view_0.png to view_8.png", NULL);
 }
 
 static void wrong_usage_ends_with_exit_code_2(void **state) {
     (void)state;
-    ProgramResult r = program_run("render", model, "-o", "x.png", NULL);
-    program_expect_error(&r, 2, "--view NAME", "--camera", "--orbit", NULL);
-    r = program_run("render", model, "--view", "view_3", "--orbit", "3", "--scene", scene, "-o", "x.png", NULL);
-    program_expect_error(&r, 2, "not several", NULL);
-    r = program_run("render", model, "--view", "view_3", "-o", "x.png", NULL);
-    program_expect_error(&r, 2, "--scene", NULL);
-    r = program_run("render", model, "--camera", camera_file, NULL);
-    program_expect_error(&r, 2, "-o OUT.png", NULL);
-    r = program_run("render", model, "--camera", camera_file, "-o", "x.gif", NULL);
-    program_expect_error(&r, 2, "x.gif", ".exr", NULL);
-    r = program_run("render", model, "--camera", camera_file, "-o", "x.jpg", "--alpha", NULL);
-    program_expect_error(&r, 2, "JPEG", NULL);
-    r = program_run("render", model, "--camera", camera_file, "-o", "x.png", "--alpha", "--depth", NULL);
-    program_expect_error(&r, 2, "--depth and --alpha", NULL);
-    r = program_run("render", model, "--camera", camera_file, "-o", "x.png", "--stop", "before", NULL);
-    program_expect_error(&r, 2, "--reference", NULL);
-    r = program_run("render", model, "--camera", camera_file, "-o", "x.png", "--background", "1,1", NULL);
-    program_expect_error(&r, 2, "1,1", NULL);
+    CommandResult r = command_run("render", model, "-o", "x.png", NULL);
+    command_expect_error(&r, 2, "--view NAME", "--camera", "--orbit", NULL);
+    r = command_run("render", model, "--view", "view_3", "--orbit", "3", "--scene", scene, "-o", "x.png", NULL);
+    command_expect_error(&r, 2, "not several", NULL);
+    r = command_run("render", model, "--view", "view_3", "-o", "x.png", NULL);
+    command_expect_error(&r, 2, "--scene", NULL);
+    r = command_run("render", model, "--camera", camera_file, NULL);
+    command_expect_error(&r, 2, "-o OUT.png", NULL);
+    r = command_run("render", model, "--camera", camera_file, "-o", "x.gif", NULL);
+    command_expect_error(&r, 2, "x.gif", ".exr", NULL);
+    r = command_run("render", model, "--camera", camera_file, "-o", "x.jpg", "--alpha", NULL);
+    command_expect_error(&r, 2, "JPEG", NULL);
+    r = command_run("render", model, "--camera", camera_file, "-o", "x.png", "--alpha", "--depth", NULL);
+    command_expect_error(&r, 2, "--depth and --alpha", NULL);
+    r = command_run("render", model, "--camera", camera_file, "-o", "x.png", "--stop", "before", NULL);
+    command_expect_error(&r, 2, "--reference", NULL);
+    r = command_run("render", model, "--camera", camera_file, "-o", "x.png", "--background", "1,1", NULL);
+    command_expect_error(&r, 2, "1,1", NULL);
 }
 
 static void what_cannot_be_had_ends_with_exit_code_1(void **state) {
     (void)state;
-    ProgramResult r = program_run("render", model, "--camera", "none.json", "-o", "x.png", NULL);
-    program_expect_error(&r, 1, "none.json", NULL);
-    r = program_run("render", model, "--camera", "README.md", "-o", "x.png", NULL);
-    program_expect_error(&r, 1, "README.md", NULL);
-    r = program_run("render", model, "--camera", camera_file, "-o", "/nonexistent/x.png", NULL);
-    program_expect_error(&r, 1, "/nonexistent", NULL);
-    r = program_run("render", "none.ply", "--camera", camera_file, "-o", "x.png", NULL);
-    program_expect_error(&r, 1, "none.ply", NULL);
+    CommandResult r = command_run("render", model, "--camera", "none.json", "-o", "x.png", NULL);
+    command_expect_error(&r, 1, "none.json", NULL);
+    r = command_run("render", model, "--camera", "README.md", "-o", "x.png", NULL);
+    command_expect_error(&r, 1, "README.md", NULL);
+    r = command_run("render", model, "--camera", camera_file, "-o", "/nonexistent/x.png", NULL);
+    command_expect_error(&r, 1, "/nonexistent", NULL);
+    r = command_run("render", "none.ply", "--camera", camera_file, "-o", "x.png", NULL);
+    command_expect_error(&r, 1, "none.ply", NULL);
     assert_int_equal(access("x.png", F_OK), -1); // nothing was left behind
 }
 

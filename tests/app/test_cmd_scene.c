@@ -1,5 +1,5 @@
 #include "lab/io/file.h"
-#include "tests/support/program.h"
+#include "tests/support/command.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -9,16 +9,16 @@
 static void a_scene_is_written_and_understood(void **state) {
     (void)state;
     const char *folder = support_path(support_scratch(), "studio");
-    ProgramResult r = program_run("scene", "studio", "-o", folder, "--size", "48x32", "--views", "9", "--json", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("scene", "studio", "-o", folder, "--size", "48x32", "--views", "9", "--json", NULL);
+    command_expect(&r, 0);
     json_t *root = json_loads(r.out, 0, NULL); // exactly one document: anything behind it is refused
     assert_non_null(root);
     assert_int_equal(json_integer_value(json_object_get(root, "views")), 9);
     assert_string_equal(json_string_value(json_object_get(root, "folder")), folder);
     json_decref(root);
 
-    r = program_run("info", folder, "--json", NULL);
-    program_expect(&r, 0);
+    r = command_run("info", folder, "--json", NULL);
+    command_expect(&r, 0);
     root = json_loads(r.out, 0, NULL);
     assert_int_equal(json_integer_value(json_object_get(root, "views")), 9);
     assert_int_equal(json_integer_value(json_object_get(root, "held_out")), 2);
@@ -28,35 +28,35 @@ static void a_scene_is_written_and_understood(void **state) {
 
 static void help_lists_the_scenes(void **state) {
     (void)state;
-    ProgramResult r = program_run("scene", "--help", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("scene", "--help", NULL);
+    command_expect(&r, 0);
     static const char *const names[] = {"studio", "fence", "courtyard"};
     for (int i = 0; i < 3; i++) assert_non_null(strstr(r.out, names[i]));
 }
 
 static void wrong_usage_ends_with_exit_code_2(void **state) {
     (void)state;
-    ProgramResult r = program_run("scene", "studoi", "-o", "x", NULL);
-    program_expect_error(&r, 2, "no scene 'studoi'", "did you mean studio?", NULL);
-    r = program_run("scene", "moon", "-o", "x", NULL);
-    program_expect_error(&r, 2, "no scene 'moon'", "fence", NULL);
-    r = program_run("scene", "studio", NULL);
-    program_expect_error(&r, 2, "-o DIR", NULL);
-    r = program_run("scene", "studio", "-o", "x", "--size", "48", NULL);
-    program_expect_error(&r, 2, "WxH", NULL);
-    r = program_run("scene", "studio", "-o", "x", "--views", "1", NULL);
-    program_expect_error(&r, 2, "--views 1", NULL);
+    CommandResult r = command_run("scene", "studoi", "-o", "x", NULL);
+    command_expect_error(&r, 2, "no scene 'studoi'", "did you mean studio?", NULL);
+    r = command_run("scene", "moon", "-o", "x", NULL);
+    command_expect_error(&r, 2, "no scene 'moon'", "fence", NULL);
+    r = command_run("scene", "studio", NULL);
+    command_expect_error(&r, 2, "-o DIR", NULL);
+    r = command_run("scene", "studio", "-o", "x", "--size", "48", NULL);
+    command_expect_error(&r, 2, "WxH", NULL);
+    r = command_run("scene", "studio", "-o", "x", "--views", "1", NULL);
+    command_expect_error(&r, 2, "--views 1", NULL);
     assert_false(file_exists("x"));
 }
 
 static void a_folder_that_cannot_be_written_is_a_failure(void **state) {
     (void)state;
-    ProgramResult r = program_run("scene", "studio", "-o", "/proc/none", NULL);
-    program_expect_error(&r, 1, "/proc/none", NULL);
+    CommandResult r = command_run("scene", "studio", "-o", "/proc/none", NULL);
+    command_expect_error(&r, 1, "/proc/none", NULL);
     const char *file = support_path(support_scratch(), "file");
     assert_true(file_write(file, "x", 1));
-    r = program_run("scene", "studio", "-o", file, NULL);
-    program_expect_error(&r, 1, file, NULL);
+    r = command_run("scene", "studio", "-o", file, NULL);
+    command_expect_error(&r, 1, file, NULL);
 }
 
 int main(void) {

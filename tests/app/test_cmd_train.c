@@ -1,8 +1,8 @@
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
 #include "splat3d/ply.h"
+#include "tests/support/command.h"
 #include "tests/support/little_scene.h"
-#include "tests/support/program.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -23,8 +23,8 @@ static int make_files(void **state) {
 // The path of a run folder that is not there yet.
 static const char *new_run(const char *name) { return support_path(support_scratch(), name); }
 
-static json_t *parse(const ProgramResult *result) {
-    program_expect(result, 0);
+static json_t *parse(const CommandResult *result) {
+    command_expect(result, 0);
     json_t *root = json_loads(result->out, 0, NULL); // exactly one document: anything behind it is refused
     assert_non_null(root);
     return root;
@@ -34,7 +34,7 @@ static void a_run_leaves_its_files_and_its_figures(void **state) {
     (void)state;
     char run[4096];
     snprintf(run, sizeof run, "%s", new_run("run"));
-    ProgramResult r = program_run("train", scene, "-o", run, "--iterations", "20", "--quiet", "--json", NULL);
+    CommandResult r = command_run("train", scene, "-o", run, "--iterations", "20", "--quiet", "--json", NULL);
     json_t *root = parse(&r);
     assert_string_equal(r.err, "");
     static const char *const keys[] = {"psnr",         "ssim",          "splats", "seconds", "ms_per_iteration",
@@ -48,27 +48,27 @@ static void a_run_leaves_its_files_and_its_figures(void **state) {
     assert_true(file_exists(support_path(run, "metrics.jsonl")));
 
     // The figures are those that eval finds in the saved model.
-    r = program_run("eval", run, "--json", "--quiet", NULL);
+    r = command_run("eval", run, "--json", "--quiet", NULL);
     json_t *scores = parse(&r);
     support_near(json_number_value(json_object_get(scores, "psnr")), json_number_value(json_object_get(root, "psnr")),
                  1e-9, "PSNR");
     json_decref(scores);
     json_decref(root);
 
-    r = program_run("train", scene, "-o", run, "--iterations", "20", NULL);
-    program_expect_error(&r, 1, "holds a run already", "--overwrite", NULL);
+    r = command_run("train", scene, "-o", run, "--iterations", "20", NULL);
+    command_expect_error(&r, 1, "holds a run already", "--overwrite", NULL);
 }
 
 static void wrong_usage_ends_with_exit_code_2(void **state) {
     (void)state;
-    ProgramResult r = program_run("train", scene, NULL);
-    program_expect_error(&r, 2, "-o RUN", NULL);
-    r = program_run("train", scene, "-o", new_run("never"), "--iterations", "0", NULL);
-    program_expect_error(&r, 2, "--iterations 0", "1 to", NULL);
-    r = program_run("train", scene, "-o", new_run("never"), "--background", "plaid", NULL);
-    program_expect_error(&r, 2, "plaid", NULL);
-    r = program_run("train", scene, "-o", new_run("never"), "--iteration", "5", NULL);
-    program_expect_error(&r, 2, "did you mean --iterations?", NULL);
+    CommandResult r = command_run("train", scene, NULL);
+    command_expect_error(&r, 2, "-o RUN", NULL);
+    r = command_run("train", scene, "-o", new_run("never"), "--iterations", "0", NULL);
+    command_expect_error(&r, 2, "--iterations 0", "1 to", NULL);
+    r = command_run("train", scene, "-o", new_run("never"), "--background", "plaid", NULL);
+    command_expect_error(&r, 2, "plaid", NULL);
+    r = command_run("train", scene, "-o", new_run("never"), "--iteration", "5", NULL);
+    command_expect_error(&r, 2, "did you mean --iterations?", NULL);
     assert_false(file_exists(new_run("never")));
 }
 
@@ -80,8 +80,8 @@ static void what_is_no_scene_fails_with_a_hint(void **state) {
     static const char *const missing = "no/such/scene";
     const char *const paths[] = {empty, text, missing};
     for (int i = 0; i < 3; i++) {
-        ProgramResult r = program_run("train", paths[i], "-o", new_run("never"), NULL);
-        program_expect_error(&r, 1, paths[i], NULL);
+        CommandResult r = command_run("train", paths[i], "-o", new_run("never"), NULL);
+        command_expect_error(&r, 1, paths[i], NULL);
         assert_non_null(strpbrk(r.err, ";?(")); // a hint follows
     }
     assert_false(file_exists(new_run("never")));
@@ -92,8 +92,8 @@ static void a_missing_image_is_named(void **state) {
     const char *damaged = support_path(support_scratch(), "damaged");
     little_scene_write(damaged);
     assert_int_equal(unlink(support_path(damaged, "images/view_5.png")), 0);
-    ProgramResult r = program_run("train", damaged, "-o", new_run("never"), NULL);
-    program_expect_error(&r, 1, "view_5.png", NULL);
+    CommandResult r = command_run("train", damaged, "-o", new_run("never"), NULL);
+    command_expect_error(&r, 1, "view_5.png", NULL);
 }
 
 static void a_truncated_image_is_named(void **state) {
@@ -102,8 +102,8 @@ static void a_truncated_image_is_named(void **state) {
     little_scene_write(damaged);
     const char *image = support_path(damaged, "images/view_4.png");
     assert_int_equal(truncate(image, 200), 0);
-    ProgramResult r = program_run("train", damaged, "-o", new_run("truncated-run"), "--quiet", NULL);
-    program_expect_error(&r, 1, "view_4.png", NULL);
+    CommandResult r = command_run("train", damaged, "-o", new_run("truncated-run"), "--quiet", NULL);
+    command_expect_error(&r, 1, "view_4.png", NULL);
 }
 
 static void a_camera_that_is_not_a_number_is_refused(void **state) {
@@ -114,16 +114,16 @@ static void a_camera_that_is_not_a_number_is_refused(void **state) {
         "{\"fl_x\": 50, \"w\": 48, \"h\": 32, \"frames\": [{\"file_path\": \"a.png\", \"transform_matrix\": "
         "[[1,0,0,NaN],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]}";
     assert_true(file_write(support_path(folder, "transforms.json"), json, strlen(json)));
-    ProgramResult r = program_run("train", folder, "-o", new_run("never"), NULL);
-    program_expect_error(&r, 1, "transforms.json", NULL);
+    CommandResult r = command_run("train", folder, "-o", new_run("never"), NULL);
+    command_expect_error(&r, 1, "transforms.json", NULL);
 }
 
 static void resuming_what_is_no_run_says_so(void **state) {
     (void)state;
-    ProgramResult r = program_run("train", "--resume", "no/such/run", NULL);
-    program_expect_error(&r, 1, "no/such/run", "holds no run", NULL);
-    r = program_run("train", scene, "--resume", "no/such/run", NULL);
-    program_expect_error(&r, 2, "--resume takes the scene from its run", NULL);
+    CommandResult r = command_run("train", "--resume", "no/such/run", NULL);
+    command_expect_error(&r, 1, "no/such/run", "holds no run", NULL);
+    r = command_run("train", scene, "--resume", "no/such/run", NULL);
+    command_expect_error(&r, 2, "--resume takes the scene from its run", NULL);
 }
 
 int main(void) {

@@ -1,5 +1,5 @@
 #include "lab/base/mem.h"
-#include "tests/support/program.h"
+#include "tests/support/command.h"
 #include "tests/support/support.h"
 
 #include <stdlib.h>
@@ -12,8 +12,8 @@ static void without_arguments_and_with_help_the_commands_are_listed(void **state
     (void)state;
     static const char *const ways[] = {NULL, "--help", "-h", "help"};
     for (int w = 0; w < 4; w++) {
-        ProgramResult r = program_run(ways[w], NULL);
-        program_expect(&r, 0);
+        CommandResult r = command_run(ways[w], NULL);
+        command_expect(&r, 0);
         for (int c = 0; c < COMMAND_COUNT; c++) assert_non_null(strstr(r.out, COMMANDS[c]));
         assert_string_equal(r.err, "");
     }
@@ -22,8 +22,8 @@ static void without_arguments_and_with_help_the_commands_are_listed(void **state
 static void every_command_has_its_help_on_stdout(void **state) {
     (void)state;
     for (int c = 0; c < COMMAND_COUNT; c++) {
-        ProgramResult r = program_run(COMMANDS[c], "--help", NULL);
-        program_expect(&r, 0);
+        CommandResult r = command_run(COMMANDS[c], "--help", NULL);
+        command_expect(&r, 0);
         assert_string_equal(r.err, "");
         char *usage = mem_format("Usage: splatlab %s", COMMANDS[c]);
         assert_true(strncmp(r.out, usage, strlen(usage)) == 0);
@@ -32,8 +32,8 @@ static void every_command_has_its_help_on_stdout(void **state) {
         mem_free(usage);
 
         char *same = mem_text(r.out);
-        r = program_run("help", COMMANDS[c], NULL);
-        program_expect(&r, 0);
+        r = command_run("help", COMMANDS[c], NULL);
+        command_expect(&r, 0);
         assert_string_equal(r.out, same);
         mem_free(same);
     }
@@ -41,27 +41,27 @@ static void every_command_has_its_help_on_stdout(void **state) {
 
 static void the_version_is_one_line(void **state) {
     (void)state;
-    ProgramResult r = program_run("--version", NULL);
-    program_expect(&r, 0);
+    CommandResult r = command_run("--version", NULL);
+    command_expect(&r, 0);
     assert_true(strncmp(r.out, "splatlab ", 9) == 0);
     assert_ptr_equal(strchr(r.out, '\n'), r.out + strlen(r.out) - 1);
 }
 
 static void an_unknown_command_is_wrong_usage_with_a_suggestion(void **state) {
     (void)state;
-    ProgramResult r = program_run("trian", NULL);
-    program_expect_error(&r, 2, "no command 'trian'", "did you mean 'train'?", NULL);
-    r = program_run("xyzzy", NULL);
-    program_expect_error(&r, 2, "no command 'xyzzy'", "--help", NULL);
-    r = program_run("help", "rendr", NULL);
-    program_expect_error(&r, 2, "did you mean 'render'?", NULL);
+    CommandResult r = command_run("trian", NULL);
+    command_expect_error(&r, 2, "no command 'trian'", "did you mean 'train'?", NULL);
+    r = command_run("xyzzy", NULL);
+    command_expect_error(&r, 2, "no command 'xyzzy'", "--help", NULL);
+    r = command_run("help", "rendr", NULL);
+    command_expect_error(&r, 2, "did you mean 'render'?", NULL);
 }
 
 static void every_command_refuses_an_unknown_option(void **state) {
     (void)state;
     for (int c = 0; c < COMMAND_COUNT; c++) {
-        ProgramResult r = program_run(COMMANDS[c], "--jsno", NULL);
-        program_expect_error(&r, 2, COMMANDS[c], "did you mean --json?", NULL);
+        CommandResult r = command_run(COMMANDS[c], "--jsno", NULL);
+        command_expect_error(&r, 2, COMMANDS[c], "did you mean --json?", NULL);
     }
 }
 
@@ -69,10 +69,10 @@ static void what_a_command_works_on_must_be_named(void **state) {
     (void)state;
     static const char *const commands[] = {"scene", "info", "train", "eval", "render"};
     for (size_t c = 0; c < sizeof commands / sizeof commands[0]; c++) {
-        ProgramResult r = program_run(commands[c], NULL);
-        program_expect_error(&r, 2, "splatlab ", NULL);
-        r = program_run(commands[c], "a", "b", NULL);
-        program_expect_error(&r, 2, "'b' is one argument too many", NULL);
+        CommandResult r = command_run(commands[c], NULL);
+        command_expect_error(&r, 2, "splatlab ", NULL);
+        r = command_run(commands[c], "a", "b", NULL);
+        command_expect_error(&r, 2, "'b' is one argument too many", NULL);
     }
 }
 

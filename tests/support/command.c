@@ -1,4 +1,4 @@
-#include "tests/support/program.h"
+#include "tests/support/command.h"
 
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
@@ -39,7 +39,7 @@ static int spawn_and_wait(const char *path, char *const *arguments, const char *
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-ProgramResult program_run(const char *first, ...) {
+CommandResult command_run(const char *first, ...) {
     static char *old_out, *old_err;
     char *arguments[ARGUMENTS_MAX] = {(char *)program_path()};
     int count = 1;
@@ -53,7 +53,7 @@ ProgramResult program_run(const char *first, ...) {
     char out[4096], err[4096];
     snprintf(out, sizeof out, "%s/program.out", support_scratch());
     snprintf(err, sizeof err, "%s/program.err", support_scratch());
-    ProgramResult result = {.exit_code = spawn_and_wait(arguments[0], arguments, out, err)};
+    CommandResult result = {.exit_code = spawn_and_wait(arguments[0], arguments, out, err)};
     size_t size;
     mem_free(old_out);
     mem_free(old_err);
@@ -63,18 +63,18 @@ ProgramResult program_run(const char *first, ...) {
     return result;
 }
 
-static void show(const ProgramResult *result) {
+static void show(const CommandResult *result) {
     print_message("exit code %d\nstdout: %s\nstderr: %s\n", result->exit_code, result->out, result->err);
 }
 
-void program_expect(const ProgramResult *result, int exit_code) {
+void command_expect(const CommandResult *result, int exit_code) {
     if (result->exit_code == exit_code) return;
     show(result);
     fail_msg("exit code %d, expected %d", result->exit_code, exit_code);
 }
 
-void program_expect_error(const ProgramResult *result, int exit_code, ...) {
-    program_expect(result, exit_code);
+void command_expect_error(const CommandResult *result, int exit_code, ...) {
+    command_expect(result, exit_code);
     const char *newline = strchr(result->err, '\n');
     bool good = newline && newline[1] == 0 && strncmp(result->err, "splatlab: ", 10) == 0 && result->out[0] == 0;
     if (!good) show(result);
