@@ -89,7 +89,9 @@ static void downscaling_keeps_rays_and_pixels_together(void **state) {
     assert_int_equal(dataset_image_bytes(&small), 3 * 4 * 3 * 3);
     dataset_destroy(&small);
     dataset_destroy(&full);
-    scene_open(folder, 9);
+    small = scene_open(folder, 9);
+    assert_int_equal(small.views[0].camera.width, 1);
+    dataset_destroy(&small);
     Dataset none;
     assert_false(dataset_open(folder, 10, &none));
     assert_non_null(strstr(fail_text(), "13 x 9 px"));
