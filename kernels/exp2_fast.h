@@ -5,7 +5,7 @@
 // The compiler must not fold the rounding: never -cl-unsafe-math-optimizations nor -cl-fast-relaxed-math.
 // Outside the range the result is garbage: the callers select it away.
 // On PoCL the built-in exp2() makes the whole forward blend 35 % slower. Test: the pictures of
-// tests/splat3d/test_opencl_rasterizer.c, which a relative error of 1e-5 would fail.
+// tests/splat3d/test_opencl_rasterizer.c.
 #ifndef SPLATLAB_KERNELS_EXP2_FAST_H
 #define SPLATLAB_KERNELS_EXP2_FAST_H
 

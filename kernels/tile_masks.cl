@@ -48,10 +48,12 @@ static void band_columns(ScreenSplat splat, float top, int columns, int4 *first,
     *end = from > to ? (int4)(0) : *end;
 }
 
-// The bits from low to high - 1 of four, for bounds anywhere.
+// The bits from low to high - 1 of four, for bounds anywhere. (Bounds of clamp() as vectors: Oclgrind takes scalar ones for the first
+// element only.)
 static int4 nibbles(int4 low, int4 high) {
     const int4 one = (int4)(1);
-    const int4 below_high = (one << clamp(high, 0, BLOCKS)) - 1, below_low = (one << clamp(low, 0, BLOCKS)) - 1;
+    const int4 below_high = (one << clamp(high, (int4)(0), (int4)(BLOCKS))) - 1,
+               below_low = (one << clamp(low, (int4)(0), (int4)(BLOCKS))) - 1;
     return below_high & ~below_low;
 }
 
