@@ -181,12 +181,14 @@ static bool descend(Trainer *t, int step, int view, StepReport *report) {
     DensityStatistics *statistics = schedule_density_is_on(&t->options, step) ? &t->statistics : NULL;
     int splat;
     GaussianFieldId field;
-    bool done = opencl_render(t->rasterizer, &t->model, &t->views[view]->camera, &settings) &&
-                opencl_loss_run(t->loss, opencl_picture(t->rasterizer), t->photos[view], settings.background,
-                                (float)t->options.dssim_weight) &&
-                opencl_backward(t->rasterizer, &t->model, &t->gradient, statistics) &&
-                opencl_adam_step(t->adam, step, rate, settings.sh_degree, &t->gradient, &t->model, &t->m, &t->v) &&
-                opencl_loss_read(t->loss, &report->loss) && opencl_adam_check(t->adam, &splat, &field);
+    bool done = opencl_render(t->rasterizer, &t->model, &t->views[view]->camera, &settings);
+    gpu_stage(t->gpu, "loss");
+    done = done && opencl_loss_run(t->loss, opencl_picture(t->rasterizer), t->photos[view], settings.background,
+                                   (float)t->options.dssim_weight);
+    done = done && opencl_backward(t->rasterizer, &t->model, &t->gradient, statistics);
+    gpu_stage(t->gpu, "adam");
+    done = done && opencl_adam_step(t->adam, step, rate, settings.sh_degree, &t->gradient, &t->model, &t->m, &t->v);
+    done = done && opencl_loss_read(t->loss, &report->loss) && opencl_adam_check(t->adam, &splat, &field);
     if (!done) return fail_context("step %d, view %s", step, t->views[view]->name);
     if (splat >= 0)
         return fail(
