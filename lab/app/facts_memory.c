@@ -18,6 +18,14 @@ static size_t working_bytes(void) {
     return screen + order_and_statistics + PAIRS_PER_SPLAT * pair;
 }
 
+// Per splat: the host's copy of parameters and moments, id and statistics, while the model grows or is saved.
+static size_t copied_bytes(int sh_degree) {
+    return 3 * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree) + 3 * sizeof(int);
+}
+
+// The program itself with the OpenCL driver and its compiler, as measured with PoCL.
+static const size_t PROGRAM_BYTES = (size_t)256 << 20;
+
 // Photographs stand on the device as RGBA bytes; those held out wait on the host as they were read.
 static size_t photo_bytes(const Dataset *dataset) {
     size_t bytes = 0;
@@ -47,12 +55,14 @@ static void set_bytes(json_t *facts, const char *key, size_t bytes) {
 
 json_t *facts_of_memory(int splats, int sh_degree, const Dataset *dataset) {
     json_t *facts = json_object();
-    size_t learned = learned_bytes(sh_degree), working = working_bytes();
-    size_t total = (size_t)splats * (learned + working);
+    size_t learned = learned_bytes(sh_degree), working = working_bytes(), copied = copied_bytes(sh_degree);
+    size_t total = PROGRAM_BYTES + (size_t)splats * (learned + working + copied);
     json_object_set_new(facts, "splats", json_integer(splats));
     json_object_set_new(facts, "sh_degree", json_integer(sh_degree));
     set_bytes(facts, "learned_per_splat_bytes", learned);
     set_bytes(facts, "working_per_splat_bytes", working);
+    set_bytes(facts, "copied_per_splat_bytes", copied);
+    set_bytes(facts, "program_bytes", PROGRAM_BYTES);
     if (dataset) {
         set_bytes(facts, "photographs_bytes", photo_bytes(dataset));
         set_bytes(facts, "picture_bytes", picture_bytes(dataset));
