@@ -16,8 +16,9 @@ DEMO_ITERATIONS ?= 3000
 # Debian packages: to build, to compute (any vendor's OpenCL driver will do beside PoCL), to test.
 PACKAGES := gcc g++ make \
             libopenimageio-dev ocl-icd-opencl-dev opencl-headers libjansson-dev libpopt-dev libmd-dev zlib1g-dev \
+            libglfw3-dev libgl-dev libimgui-dev \
             pocl-opencl-icd \
-            libcmocka-dev libgsl-dev openimageio-tools oclgrind clang-format python3
+            libcmocka-dev libgsl-dev openimageio-tools oclgrind clang-format python3 xvfb xdotool libgl1-mesa-dri
 
 # ---- the build ----
 BUILD   := build/$(MODE)
@@ -39,14 +40,16 @@ COMMON    := $(MODE_FLAGS) $(WARNINGS) -ffp-contract=off -pthread -I. -D_GNU_SOU
              -DSPLATLAB_INSTALLED_KERNELS='"$(PREFIX)/share/splatlab/kernels"'
 C_FLAGS   := -std=c17 $(COMMON) -Wstrict-prototypes -Wmissing-prototypes $(CFLAGS)
 CXX_FLAGS := -std=c++17 $(COMMON) $(CXXFLAGS)
-LINK       = $(SAY) "LINK $@"; $(CC) $(MODE_FLAGS) -pthread $(LDFLAGS) -o $@ $^
+LINK       = $(SAY) "LINK $@"; $(CC) $(MODE_FLAGS) -pthread -Wl,--as-needed $(LDFLAGS) -o $@ $^
 SAY       := @$(if $(V),set -x;) echo
-LIBRARIES := -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz -lstdc++ -lm
+LIBRARIES := -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz \
+             -limgui -lstb -lglfw -lGL -lstdc++ -lm
 TEST_LIBRARIES := -lcmocka -lgsl -lgslcblas
 
 objects_of = $(patsubst %,$(BUILD)/%.o,$(1))
 
-SOURCES := $(wildcard lab/base/*.c lab/io/*.c lab/io/*.cpp lab/gpu/*.c splat2d/*.c splat3d/*.c lab/app/*.c)
+SOURCES := $(wildcard lab/base/*.c lab/io/*.c lab/io/*.cpp lab/gpu/*.c splat2d/*.c splat3d/*.c \
+           lab/app/*.c lab/app/*.cpp)
 OBJECTS := $(call objects_of,$(SOURCES))
 
 # tests/FOLDER/test_NAME.c: one cmocka program each; helpers stand in tests/support.
