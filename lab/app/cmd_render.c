@@ -193,7 +193,7 @@ static bool find_camera(Job *job) {
         if (width < 1 || height < 1)
             return fail("%s: %dx%d px leave nothing at --downscale %d", o->camera, job->camera.width,
                         job->camera.height, o->downscale);
-        if (o->downscale > 1) job->camera = camera_resized(&job->camera, width, height);
+        job->camera = camera_resized(&job->camera, width, height);
         return true;
     }
     if (!dataset_open(o->scene, o->downscale, &job->dataset)) return false;

@@ -49,15 +49,13 @@ static bool fail_unknown(const char *text, const struct poptOption *entries) {
     while (entries[count].longName) count++;
     const char **names = mem_alloc((size_t)count, sizeof *names);
     for (int i = 0; i < count; i++) names[i] = entries[i].longName;
-    char *bare = mem_text(text + strspn(text, "-"));
-    bare[strcspn(bare, "=")] = 0; // popt hands over "--name=value"
+    const char *bare = text + strspn(text, "-");
     int best;
     bool near = strlen(bare) > 1 && nearest_find(bare, names, count, &best, 1) == 1;
     if (near)
         fail_usage("there is no option %s; did you mean --%s?", text, names[best]);
     else
         fail_usage("there is no option %s; --help lists them", text);
-    mem_free(bare);
     mem_free(names);
     return false;
 }
