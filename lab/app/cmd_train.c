@@ -237,8 +237,8 @@ static bool after_step(Run *run, const StepReport *report) {
     if (due(report->step, o->eval_every) && report->step < o->train.iterations) {
         Evaluation evaluation;
         if (!score(run, &evaluation)) return false;
-        log_info("step %d: held-out PSNR %.2f dB, SSIM %.4f, %d splats", report->step, evaluation.psnr, evaluation.ssim,
-                 report->splats);
+        log_info("step %d: held-out PSNR %.2f dB, SSIM %.4f, %d splats%s", report->step, evaluation.psnr,
+                 evaluation.ssim, report->splats, report->opacity_reset ? " (opacities were reset at this step)" : "");
         bool done = metrics_log_evaluation(&run->log, report->step, &evaluation);
         evaluation_destroy(&evaluation);
         if (!done) return false;
