@@ -91,7 +91,8 @@ endef
 $(eval $(call tests_of,base,lab/base,$(TEST_LIBRARIES)))
 $(eval $(call tests_of,io,lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
 $(eval $(call tests_of,gpu,lab/gpu lab/base,$(TEST_LIBRARIES) -lOpenCL))
-$(eval $(call tests_of,splat2d,splat2d lab/base,$(TEST_LIBRARIES)))
+# Of lab/io only JSON files: a picture or a device drawn in by splat2d would lack its library here.
+$(eval $(call tests_of,splat2d,splat2d lab/io lab/base,$(TEST_LIBRARIES) -ljansson -lmd))
 $(eval $(call tests_of,splat3d,splat3d splat2d lab/gpu lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
 $(eval $(call tests_of,app,lab/app splat3d splat2d lab/gpu lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
 $(eval $(call tests_of,lint,lab/gpu lab/io lab/base,$(LIBRARIES)))
