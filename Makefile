@@ -39,7 +39,7 @@ WARNINGS  := -Wall -Wextra -Werror -Wshadow -Wvla -Wwrite-strings
 COMMON    := $(MODE_FLAGS) $(WARNINGS) -ffp-contract=off -pthread -I. -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120 \
              -DSPLATLAB_INSTALLED_KERNELS='"$(PREFIX)/share/splatlab/kernels"'
 C_FLAGS   := -std=c17 $(COMMON) -Wstrict-prototypes -Wmissing-prototypes $(CFLAGS)
-CXX_FLAGS := -std=c++17 $(COMMON) $(CXXFLAGS)
+CXX_FLAGS := -std=c++17 $(COMMON) -isystem /usr/include/imgui $(CXXFLAGS)
 LINK       = $(SAY) "LINK $@"; $(CC) $(MODE_FLAGS) -pthread -Wl,--as-needed $(LDFLAGS) -o $@ $^
 SAY       := @$(if $(V),set -x;) echo
 LIBRARIES := -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz \

@@ -27,7 +27,7 @@ OWNERS = [
     (r"lab/gpu/opencl\.h", r"lab/gpu/", "it is private to lab/gpu; use lab/gpu/gpu.h"),
     (r"lab/(gpu|io)/", r"(?!splat2d/)", "splat2d is plain C on lab/base alone"),
     (r"OpenImageIO/", r"lab/io/image_io\.cpp", "use lab/io/image_io.h"),
-    (r"imgui", r"lab/app/gui_imgui\.cpp", "use lab/app/gui.h"),
+    (r"(backends/)?imgui", r"lab/app/gui_imgui\.cpp", "use lab/app/gui.h"),
     (r"GLFW/", r"lab/app/", "windows belong to lab/app"),
     (r"popt\.h", r"lab/app/", "the command line belongs to lab/app"),
     (r"(cmocka\.h|gsl/)", r"tests/", "only tests may use it"),
