@@ -263,3 +263,25 @@ bool image_savef(const char *path, const ImageF *image) {
     image8_destroy(&bytes);
     return ok;
 }
+
+bool image_save_gif(const char *path, const Image8 *frames, int count, int delay_ms) {
+    if (!file_has_ending(path, ".gif")) return fail("cannot write film %s: its name must end in .gif", path);
+    if (count < 1) return fail("cannot write film %s: it has no frames", path);
+    OIIO::ImageSpec spec(frames[0].width, frames[0].height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("FramesPerSecond", 1000.0f / (float)(delay_ms < 10 ? 10 : delay_ms));
+    std::vector<OIIO::ImageSpec> specs(count, spec);
+
+    OIIO::Filesystem::IOVecOutput memory;
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path, &memory);
+    if (!output) return fail("cannot write film %s: %s", path, one_line(OIIO::geterror()).c_str());
+    bool good = output->open(path, count, specs.data());
+    for (int i = 0; good && i < count; i++) {
+        if (frames[i].width != spec.width || frames[i].height != spec.height || frames[i].channels != 3)
+            return fail("cannot write film %s: frame %d is %d x %d of %d channels, want %d x %d of 3 as the first",
+                        path, i, frames[i].width, frames[i].height, frames[i].channels, spec.width, spec.height);
+        good = (i == 0 || output->open(path, spec, OIIO::ImageOutput::AppendSubimage)) &&
+               output->write_image(OIIO::TypeDesc::UINT8, frames[i].bytes);
+    }
+    if (!good || !output->close()) return fail("cannot write film %s: %s", path, one_line(output->geterror()).c_str());
+    return file_write(path, memory.buffer().data(), memory.buffer().size());
+}

@@ -31,6 +31,10 @@ bool image_loadf(const char *path, ImageF *image);
 bool image_save8(const char *path, const Image8 *image);
 bool image_savef(const char *path, const ImageF *image); // to .exr/.tif as float, to .png/.jpg rounded to 8 bit
 
+// A film: `count` frames of one size, 3 channels, each shown for delay_ms (in steps of 10 ms), over and over. 256 colours a
+// frame, dithered. path ends in .gif.
+bool image_save_gif(const char *path, const Image8 *frames, int count, int delay_ms);
+
 #ifdef __cplusplus
 }
 #endif

@@ -371,6 +371,55 @@ static void photographs_of_others_are_read(void **state) {
     image8_destroy(&image);
 }
 
+// How often a byte sequence occurs in a file.
+static int occurrences(const char *path, const char *bytes, size_t length) {
+    char *data;
+    size_t size;
+    int found = 0;
+    if (!file_read(path, &data, &size)) fail_msg("%s", fail_text());
+    for (size_t i = 0; i + length <= size; i++) found += memcmp(data + i, bytes, length) == 0;
+    mem_free(data);
+    return found;
+}
+
+static void a_film_has_its_frames_its_delay_and_no_end(void **state) {
+    (void)state;
+    enum { FRAMES = 3 };
+    Image8 frames[FRAMES];
+    for (int i = 0; i < FRAMES; i++) {
+        frames[i] = image8_create(33, 17, 3);
+        memset(frames[i].bytes, 100 * i + 20, 33 * 17 * 3);
+    }
+    const char *path = scratch("film.gif"), *again = scratch("again.gif");
+    if (!image_save_gif(path, frames, FRAMES, 80)) fail_msg("%s", fail_text());
+    // A graphic control block begins each frame: introducer, label, size, flags, then the delay in 1/100 s.
+    assert_int_equal(occurrences(path, "\x21\xF9\x04\x05\x08\x00", 6), FRAMES);
+    assert_int_equal(occurrences(path, "NETSCAPE2.0\x03\x01\x00\x00", 15), 1); // repeated without end
+    Image8 first = load8(path);
+    assert_int_equal(first.width, 33);
+    assert_int_equal(first.height, 17);
+    assert_int_equal(first.bytes[0], 20);
+    image8_destroy(&first);
+
+    if (!image_save_gif(again, frames, FRAMES, 80)) fail_msg("%s", fail_text());
+    char sums[2][65];
+    assert_true(file_sha256(path, sums[0]) && file_sha256(again, sums[1]));
+    assert_string_equal(sums[0], sums[1]);
+    for (int i = 0; i < FRAMES; i++) image8_destroy(&frames[i]);
+}
+
+static void a_film_of_different_sizes_is_refused(void **state) {
+    (void)state;
+    Image8 frames[2] = {noise(8, 8, 3), noise(8, 9, 3)};
+    assert_false(image_save_gif(scratch("mixed.gif"), frames, 2, 100));
+    assert_non_null(strstr(fail_text(), "frame 1 is 8 x 9"));
+    assert_false(file_exists(scratch("mixed.gif")));
+    assert_false(image_save_gif(scratch("film.png"), frames, 1, 100));
+    assert_non_null(strstr(fail_text(), ".gif"));
+    assert_false(image_save_gif(scratch("none.gif"), frames, 0, 100));
+    for (int i = 0; i < 2; i++) image8_destroy(&frames[i]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rgb_png_comes_back_to_the_byte),
@@ -389,6 +438,8 @@ int main(void) {
         cmocka_unit_test(a_picture_that_cannot_be_written_is_an_error),
         cmocka_unit_test(a_full_disk_leaves_the_old_picture),
         cmocka_unit_test(photographs_of_others_are_read),
+        cmocka_unit_test(a_film_has_its_frames_its_delay_and_no_end),
+        cmocka_unit_test(a_film_of_different_sizes_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
