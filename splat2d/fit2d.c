@@ -97,13 +97,13 @@ static double *field(double *parameters, int count, int k) { return parameters +
 
 static double clamp(double value, double low, double high) { return fmin(fmax(value, low), high); }
 
-static void start_blob(const Fit2d *fit, const FitPlace *place, double theta_rad, double p[FIELDS]) {
+static void start_blob(const Fit2d *fit, const FitPlace *place, double spacing_px, double theta_rad, double p[FIELDS]) {
     const ImageF *photo = &fit->photo;
     int x = (int)clamp(place->x, 0, photo->width - 1), y = (int)clamp(place->y, 0, photo->height - 1);
     double side = fmax(photo->width, photo->height);
     p[MEAN_X] = place->x;
     p[MEAN_Y] = place->y;
-    p[LOG_SX] = p[LOG_SY] = log(clamp(START_SIGMA * place->spacing_px, 2 * SIGMA_MIN, side / 4));
+    p[LOG_SX] = p[LOG_SY] = log(clamp(START_SIGMA * spacing_px, 2 * SIGMA_MIN, side / 4));
     p[THETA] = fit->options.isotropic ? 0 : theta_rad;
     p[LOGIT] = START_LOGIT;
     for (int c = 0; c < 3; c++) p[RED + c] = (double)photo->values[((ptrdiff_t)y * photo->width + x) * 3 + c];
@@ -142,10 +142,11 @@ static void add_blobs(Fit2d *fit, const double *weights, RngPurpose purpose, int
                places);
     qsort(places, (size_t)added, sizeof *places, compare_spacing);
     for (int f = 0; f < FIELDS; f++) first[f] = values + (ptrdiff_t)f * added;
+    double crowding = sqrt((double)added / (fit->count + added)); // the neighbours include those there are
     for (int i = 0; i < added; i++) {
         double p[FIELDS];
         // Angles spread evenly (golden ratio): blobs that start in one direction would prefer edges of that direction.
-        start_blob(fit, &places[i], fmod(i * 0.6180339887498949, 1) * M_PI, p);
+        start_blob(fit, &places[i], crowding * places[i].spacing_px, fmod(i * 0.6180339887498949, 1) * M_PI, p);
         for (int f = 0; f < FIELDS; f++) first[f][i] = p[f];
     }
     put_in_front(fit, added, first);

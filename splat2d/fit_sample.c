@@ -15,17 +15,23 @@ static double brightness(const ImageF *image, int x, int y) {
     return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3;
 }
 
+static void share_with_all(double *weights, ptrdiff_t pixels) {
+    double sum = 0;
+    for (ptrdiff_t i = 0; i < pixels; i++) sum += weights[i];
+    double share = sum > 0 ? UNIFORM_SHARE * sum / (double)pixels : 1;
+    for (ptrdiff_t i = 0; i < pixels; i++) weights[i] += share;
+}
+
 double *fit_weights_of_edges(const ImageF *photo) {
     ptrdiff_t pixels = (ptrdiff_t)photo->width * photo->height;
-    double *weights = mem_alloc((size_t)pixels, sizeof *weights), sum = 0;
+    double *weights = mem_alloc((size_t)pixels, sizeof *weights);
     for (int y = 0; y < photo->height; y++)
         for (int x = 0; x < photo->width; x++) {
             double along_x = brightness(photo, x + 1, y) - brightness(photo, x - 1, y);
             double along_y = brightness(photo, x, y + 1) - brightness(photo, x, y - 1);
-            sum += weights[(ptrdiff_t)y * photo->width + x] = hypot(along_x, along_y);
+            weights[(ptrdiff_t)y * photo->width + x] = hypot(along_x, along_y);
         }
-    double share = sum > 0 ? UNIFORM_SHARE * sum / (double)pixels : 1;
-    for (ptrdiff_t i = 0; i < pixels; i++) weights[i] += share;
+    share_with_all(weights, pixels);
     return weights;
 }
 
@@ -36,6 +42,7 @@ double *fit_weights_of_error(const ImageF *picture, const ImageF *photo) {
         double difference = (double)picture->values[i] - (double)photo->values[i];
         weights[i / 3] += difference * difference;
     }
+    share_with_all(weights, pixels);
     return weights;
 }
 
