@@ -1,0 +1,149 @@
+// window.c - GLFW for the window, a handful of OpenGL calls for pictures; controls are drawn by gui.h.
+#define GL_GLEXT_PROTOTYPES
+#include "lab/app/window.h"
+
+#include "lab/base/fail.h"
+#include "lab/base/mem.h"
+
+#include <GLFW/glfw3.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct Window {
+    GLFWwindow *handle;
+    int windowed[4]; // x, y, width, height to return to from full screen
+};
+
+static char glfw_error[256]; // what GLFW said last
+
+static void note_error(int code, const char *text) {
+    (void)code;
+    strncpy(glfw_error, text, sizeof glfw_error - 1);
+}
+
+static bool fail_no_display(void) {
+    bool has_display = getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
+    if (!has_display)
+        return fail("there is no display to open a window on (DISPLAY is not set); run it under xvfb-run, or use "
+                    "--headless where the command has it");
+    return fail(
+        "cannot open a window on display %s: %s; is a display running there? Else run it under xvfb-run, or use "
+        "--headless where the command has it",
+        getenv("DISPLAY") ? getenv("DISPLAY") : getenv("WAYLAND_DISPLAY"), glfw_error);
+}
+
+// Where the screen is smaller than what was asked for, the window is, too.
+static void fit_screen(int *width, int *height) {
+    int x, y, most_width, most_height;
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    if (!monitor) return;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &most_width, &most_height);
+    if (most_width > 0 && *width > most_width) *width = most_width;
+    if (most_height > 0 && *height > most_height) *height = most_height;
+}
+
+Window *window_create(const char *title, int width, int height, bool enlarge) {
+    glfwSetErrorCallback(note_error);
+    if (!glfwInit()) {
+        fail_no_display();
+        return NULL;
+    }
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_ALPHA_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, enlarge ? GLFW_TRUE : GLFW_FALSE);
+    fit_screen(&width, &height);
+    GLFWwindow *handle = glfwCreateWindow(width, height, title, NULL, NULL);
+    if (!handle) {
+        fail("cannot open a window with OpenGL 3.3: %s; is a driver installed (Debian: libgl1-mesa-dri)?", glfw_error);
+        glfwTerminate();
+        return NULL;
+    }
+    glfwMakeContextCurrent(handle);
+    glfwSwapInterval(1);
+    Window *window = mem_alloc(1, sizeof *window);
+    window->handle = handle;
+    return window;
+}
+
+void window_destroy(Window *window) {
+    if (!window) return;
+    glfwDestroyWindow(window->handle);
+    glfwTerminate();
+    mem_free(window);
+}
+
+GLFWwindow *window_handle(const Window *window) { return window->handle; }
+
+bool window_is_closing(const Window *window) { return glfwWindowShouldClose(window->handle); }
+
+void window_size(const Window *window, int *width, int *height) { glfwGetWindowSize(window->handle, width, height); }
+
+void window_poll(Window *window, double wait_s) {
+    (void)window;
+    if (wait_s > 0)
+        glfwWaitEventsTimeout(wait_s);
+    else
+        glfwPollEvents();
+}
+
+void window_toggle_full_screen(Window *window) {
+    int *w = window->windowed;
+    if (glfwGetWindowMonitor(window->handle)) {
+        glfwSetWindowMonitor(window->handle, NULL, w[0], w[1], w[2], w[3], GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    if (!mode) return;
+    glfwGetWindowPos(window->handle, &w[0], &w[1]);
+    glfwGetWindowSize(window->handle, &w[2], &w[3]);
+    glfwSetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void window_begin(Window *window, const float rgb[3]) {
+    int width, height;
+    glfwGetFramebufferSize(window->handle, &width, &height);
+    glViewport(0, 0, width, height);
+    glClearColor(rgb[0], rgb[1], rgb[2], 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void window_show(Window *window) { glfwSwapBuffers(window->handle); }
+
+// OpenGL's rows begin at the bottom.
+bool window_read(const Window *window, Image8 *image) {
+    int width, height;
+    glfwGetFramebufferSize(window->handle, &width, &height);
+    if (width < 1 || height < 1) return fail("the window has no pixels to take a picture of; is it minimised?");
+    Image8 read = image8_create(width, height, 3);
+    *image = image8_create(width, height, 3);
+    glReadBuffer(GL_BACK);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, read.bytes);
+    size_t row = (size_t)width * 3;
+    for (int y = 0; y < height; y++) memcpy(image->bytes + y * row, read.bytes + (height - 1 - y) * row, row);
+    image8_destroy(&read);
+    return true;
+}
+
+unsigned window_texture_create(Window *window) {
+    (void)window;
+    unsigned texture = 0;
+    glGenTextures(1, &texture);
+    return texture;
+}
+
+void window_texture_fill(Window *window, unsigned texture, const Image8 *image, bool smooth) {
+    (void)window;
+    GLenum format = image->channels == 4 ? GL_RGBA : GL_RGB;
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image->width, image->height, 0, format, GL_UNSIGNED_BYTE, image->bytes);
+}

@@ -1,0 +1,34 @@
+// window.h - a window with an OpenGL 3.3 core context, by GLFW; window.c is the only file that calls OpenGL itself.
+//
+// Lengths are in window points, except where px is said: on a HiDPI screen a point is more than one px.
+#ifndef SPLATLAB_LAB_APP_WINDOW_H
+#define SPLATLAB_LAB_APP_WINDOW_H
+
+#include "lab/base/image.h"
+
+#include <stdbool.h>
+
+typedef struct Window Window;
+struct GLFWwindow;
+
+// NULL with a message where there is no display or no OpenGL 3.3. One window at a time. enlarge: multiplies the size by
+// what the screen's resolution asks for, where the window system counts in px.
+Window *window_create(const char *title, int width, int height, bool enlarge);
+void window_destroy(Window *window); // accepts NULL
+
+struct GLFWwindow *window_handle(const Window *window); // for the layer that draws controls
+void window_size(const Window *window, int *width, int *height);
+bool window_is_closing(const Window *window);
+void window_poll(Window *window, double wait_s); // takes events; waits that long for one if there is none
+void window_toggle_full_screen(Window *window);
+
+void window_begin(Window *window, const float rgb[3]); // clears the whole window
+void window_show(Window *window);                      // what was drawn since then appears
+bool window_read(const Window *window, Image8 *image); // what was drawn last, px; *image owned by the caller
+
+// A picture that can be drawn; ends with the window.
+unsigned window_texture_create(Window *window);
+// image: 3 or 4 channels. smooth: blended where it is enlarged, else each pixel is a square.
+void window_texture_fill(Window *window, unsigned texture, const Image8 *image, bool smooth);
+
+#endif
