@@ -25,7 +25,7 @@ FLOORS = {"kernels": 0, "lab/base": 1, "lab/io": 2, "lab/gpu": 2, "splat2d": 3, 
 OWNERS = [
     (r"CL/", r"lab/gpu/", "OpenCL stays behind lab/gpu/gpu.h"),
     (r"lab/gpu/opencl\.h", r"lab/gpu/", "it is private to lab/gpu; use lab/gpu/gpu.h"),
-    (r"lab/(gpu|io)/", r"(?!splat2d/)", "splat2d is plain C on lab/base alone"),
+    (r"lab/(gpu/|io/image_io)", r"(?!splat2d/)", "splat2d is plain C: numbers and JSON, no device, no picture files"),
     (r"OpenImageIO/", r"lab/io/image_io\.cpp", "use lab/io/image_io.h"),
     (r"(backends/)?imgui", r"lab/app/gui_imgui\.cpp", "use lab/app/gui.h"),
     (r"GLFW/", r"lab/app/", "windows belong to lab/app"),
