@@ -53,7 +53,9 @@ typedef struct {
 } GuiMouse;
 
 GuiMouse gui_mouse(void);
-bool gui_key(int key);     // a GLFW_KEY_... went down (or repeats); never while a text field has the keyboard
+// How often a GLFW_KEY_... went down (or repeated) with exactly these modifiers; 0 while a text field has the keyboard.
+enum { GUI_PLAIN = 0, GUI_SHIFT = 1, GUI_CTRL = 2 }; // as GLFW_MOD_...
+int gui_key(int key, int modifiers);
 bool gui_ctrl(void);       // is held
 bool gui_shift(void);      // is held
 bool gui_is_holding(void); // a mouse button or a key is down, or a control is being changed

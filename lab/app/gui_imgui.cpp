@@ -57,8 +57,8 @@ const char *const FONT_FOLDERS[] = {"/usr/share/fonts/truetype/dejavu",
                                     "/Library/Fonts"};
 
 // Latin, Greek, sub- and superscripts, punctuation with primes, arrows, mathematical signs, simple shapes.
-const ImWchar GLYPHS[] = {0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x2040, 0x2070, 0x209f, 0x2190,
-                          0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0x2713, 0x2717, 0};
+const ImWchar GLYPHS[] = {0x20,   0xff,   0x1d40, 0x1d40, 0x370,  0x3ff,  0x2010, 0x2040, 0x2070, 0x209f,
+                          0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0x2713, 0x2717, 0};
 
 std::string font_path(const char *name) {
     for (const char *folder : FONT_FOLDERS) {
@@ -265,7 +265,11 @@ GuiMouse gui_mouse(void) {
     return mouse;
 }
 
-bool gui_key(int key) { return gui.window && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(key); }
+int gui_key(int key, int modifiers) {
+    if (!gui.window || ImGui::GetIO().WantTextInput) return 0;
+    return window_key_count(gui.window, key, modifiers);
+}
+
 bool gui_ctrl(void) { return ImGui::GetIO().KeyCtrl; }
 bool gui_shift(void) { return ImGui::GetIO().KeyShift; }
 
@@ -330,7 +334,7 @@ void gui_paragraph(GuiStyle style, GuiColour colour, const char *text) {
 
 // The label stands left, the slider takes the rest of the line.
 bool gui_slider(const char *label, double *value, double low, double high, const char *format, bool logarithmic) {
-    double start = ImGui::GetCursorPosX(), labels = 4.6 * gui_em();
+    double start = ImGui::GetCursorPosX(), labels = 5.4 * gui_em();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
     ImGui::SameLine(static_cast<float>(start + labels));
@@ -379,7 +383,7 @@ bool gui_colour(const char *label, double rgb[3]) {
     double start = ImGui::GetCursorPosX();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
-    ImGui::SameLine(static_cast<float>(start + 4.6 * gui_em()));
+    ImGui::SameLine(static_cast<float>(start + 5.4 * gui_em()));
     ImGui::SetNextItemWidth(-FLT_MIN);
     bool changed = ImGui::ColorEdit3((std::string("##") + label).c_str(), value);
     note_place(label);

@@ -9,8 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { KEY_EVENTS_MAX = 64, MODIFIERS = GLFW_MOD_SHIFT | GLFW_MOD_CONTROL };
+
 struct Window {
     GLFWwindow *handle;
+    struct {
+        int key, modifiers;
+    } keys[KEY_EVENTS_MAX]; // went down in the last poll
+    int key_count;
     int windowed[4]; // x, y, width, height to return to from full screen
 };
 
@@ -30,6 +36,14 @@ static bool fail_no_display(void) {
         "cannot open a window on display %s: %s; is a display running there? Else run it under xvfb-run, or use "
         "--headless where the command has it",
         getenv("DISPLAY") ? getenv("DISPLAY") : getenv("WAYLAND_DISPLAY"), glfw_error);
+}
+
+static void note_key(GLFWwindow *handle, int key, int scancode, int action, int modifiers) {
+    Window *window = glfwGetWindowUserPointer(handle);
+    (void)scancode;
+    if (action == GLFW_RELEASE || window->key_count == KEY_EVENTS_MAX) return;
+    window->keys[window->key_count].key = key;
+    window->keys[window->key_count++].modifiers = modifiers & MODIFIERS;
 }
 
 // Where the screen is smaller than what was asked for, the window is, too.
@@ -65,6 +79,8 @@ Window *window_create(const char *title, int width, int height, bool enlarge) {
     glfwSwapInterval(1);
     Window *window = mem_alloc(1, sizeof *window);
     window->handle = handle;
+    glfwSetWindowUserPointer(handle, window);
+    glfwSetKeyCallback(handle, note_key);
     return window;
 }
 
@@ -82,11 +98,18 @@ bool window_is_closing(const Window *window) { return glfwWindowShouldClose(wind
 void window_size(const Window *window, int *width, int *height) { glfwGetWindowSize(window->handle, width, height); }
 
 void window_poll(Window *window, double wait_s) {
-    (void)window;
+    window->key_count = 0;
     if (wait_s > 0)
         glfwWaitEventsTimeout(wait_s);
     else
         glfwPollEvents();
+}
+
+int window_key_count(const Window *window, int key, int modifiers) {
+    int count = 0;
+    for (int i = 0; i < window->key_count; i++)
+        count += window->keys[i].key == key && window->keys[i].modifiers == modifiers;
+    return count;
 }
 
 void window_toggle_full_screen(Window *window) {

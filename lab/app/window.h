@@ -20,6 +20,11 @@ struct GLFWwindow *window_handle(const Window *window); // for the layer that dr
 void window_size(const Window *window, int *width, int *height);
 bool window_is_closing(const Window *window);
 void window_poll(Window *window, double wait_s); // takes events; waits that long for one if there is none
+
+// How often the key (GLFW_KEY_...) went down or repeated in the last poll with exactly these modifiers held
+// (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL). Events are counted, so that a key that is down for less than a frame is not lost.
+int window_key_count(const Window *window, int key, int modifiers);
+
 void window_toggle_full_screen(Window *window);
 
 void window_begin(Window *window, const float rgb[3]); // clears the whole window
