@@ -159,6 +159,11 @@ demo: deps all ## make a sample scene, train on it, show the result
 	$(PROGRAM) eval demo/run --scene $(DEMO_DATA) --contact-sheet demo/contact_sheet.png
 	@echo "Photo, render and error of held-out views: $(CURDIR)/demo/contact_sheet.png"
 
+.PHONY: bench
+bench: all ## measure the speed of each stage, and how it grows with the work
+	$(PROGRAM) bench
+	$(PROGRAM) bench --scaling --rounds 5
+
 # ---- to check ----
 # PoCL and LLVM keep some memory until the program ends; tests/long/leaks.txt names them, all else must be freed.
 ifeq ($(MODE),asan)

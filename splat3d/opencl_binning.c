@@ -77,7 +77,8 @@ static void order_splats(OpenclBinning *binning, int n, const TileBox *box, cons
     gpu_stage_host(binning->gpu, (clock_seconds() - began_s) * 1e3);
 }
 
-static bool sort_by_depth(OpenclBinning *binning, int n, const OpenclProject *project) {
+bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
+    const int n = frame->splat_count;
     const size_t bytes = (size_t)n * sizeof(uint32_t);
     void *box, *depth, *offset, *order;
     gpu_stage(binning->gpu, "sort");
@@ -122,11 +123,10 @@ static bool place_lists(OpenclBinning *binning, int tile_count) {
            gpu_buffer_reserve(binning->list_mask, sum * sizeof(uint16_t));
 }
 
-bool opencl_binning_run(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
+bool opencl_binning_lists(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
     const size_t n = (size_t)frame->splat_count;
     const int tile_count = frame->tiles_x * frame->tiles_y;
     const int chunks = gpu_info(binning->gpu)->is_cpu ? CHUNKS_CPU : CHUNKS_GPU;
-    if (!sort_by_depth(binning, frame->splat_count, project)) return false;
     const int chunk_length = (binning->visible + chunks - 1) / chunks;
 
     gpu_stage(binning->gpu, "bin");

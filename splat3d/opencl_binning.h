@@ -39,8 +39,9 @@ typedef struct {
 bool opencl_binning_create(Gpu *gpu, OpenclBinning *binning);
 void opencl_binning_destroy(OpenclBinning *binning); // accepts a zeroed, half-built or destroyed one
 
-// Everything above from what opencl_project_forward() left. Waits for the device twice (depths; lengths of the lists). Fails when there
-// are more than 2^31 - 1 slots.
-bool opencl_binning_run(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project);
+// From what opencl_project_forward() left, in two stages: the depth order and the slots (waits for the device; fails when there are
+// more than 2^31 - 1 slots), then the masks and the lists (waits once, for the lists' lengths).
+bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project);
+bool opencl_binning_lists(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project);
 
 #endif

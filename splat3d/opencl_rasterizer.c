@@ -29,7 +29,8 @@ bool opencl_render(OpenclRasterizer *r, const DeviceGaussians *model, const Came
     if (!frame_record_make(camera, settings, model->count, model->sh_degree, &r->frame)) return false;
     gpu_stage(r->gpu, "project");
     if (!opencl_project_forward(&r->project, &r->frame, model)) return false;
-    if (!opencl_binning_run(&r->binning, &r->frame, &r->project)) return false;
+    if (!opencl_binning_sort(&r->binning, &r->frame, &r->project)) return false;
+    if (!opencl_binning_lists(&r->binning, &r->frame, &r->project)) return false;
     gpu_stage(r->gpu, "blend_forward");
     r->has_frame = opencl_blend_forward(&r->blend, &r->frame, &r->binning, r->project.screen);
     return r->has_frame;

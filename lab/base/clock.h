@@ -5,4 +5,7 @@
 // Seconds since an arbitrary start, monotonic.
 double clock_seconds(void);
 
+// Seconds that all threads of this process have spent on a core; what other programs take does not count.
+double clock_cpu_seconds(void);
+
 #endif

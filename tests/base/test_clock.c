@@ -11,7 +11,20 @@ static void the_clock_runs_forward_in_seconds(void **state) {
     assert_true(passed >= 0.02 && passed < 10);
 }
 
+static void time_asleep_is_no_cpu_time(void **state) {
+    (void)state;
+    double before = clock_cpu_seconds();
+    usleep(50000);
+    assert_true(clock_cpu_seconds() - before < 0.04);
+    double began = clock_seconds(), worked = clock_cpu_seconds();
+    while (clock_cpu_seconds() < worked + 0.01 && clock_seconds() < began + 5) {}
+    assert_true(clock_cpu_seconds() - worked >= 0.01);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_clock_runs_forward_in_seconds)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_clock_runs_forward_in_seconds),
+        cmocka_unit_test(time_asleep_is_no_cpu_time),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,8 @@ static Binned bin(Gpu *gpu, const Gaussians *model, const Camera *camera) {
     assert_true(device_gaussians_write(&device, model));
     assert_true(frame_record_make(camera, &settings, model->count, model->sh_degree, &b.frame));
     assert_true(opencl_project_forward(&project, &b.frame, &device));
-    assert_true(opencl_binning_run(&binning, &b.frame, &project));
+    assert_true(opencl_binning_sort(&binning, &b.frame, &project));
+    assert_true(opencl_binning_lists(&binning, &b.frame, &project));
     b.visible = binning.visible, b.slots = binning.slots, b.pairs = binning.pairs;
     b.screen = copy_of(project.screen), b.box = copy_of(project.box), b.depth = copy_of(project.depth);
     b.offset = copy_of(binning.offset), b.order = copy_of(binning.order), b.start = copy_of(binning.start);

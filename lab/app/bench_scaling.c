@@ -1,0 +1,173 @@
+// bench_scaling.c - a child process for each thread count sends its rows through a pipe as JSON.
+#include "lab/app/bench_scaling.h"
+
+#include "lab/app/bench_measure.h"
+#include "lab/base/fail.h"
+#include "lab/base/log.h"
+#include "splat3d/bench_scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const int SPLATS[] = {5000, 20000, 100000, 400000};
+static const int SIZES_PX[][2] = {{270, 480}, {640, 480}, {1280, 720}};
+enum { SPLATS_COUNT = sizeof SPLATS / sizeof SPLATS[0], SIZE_COUNT = sizeof SIZES_PX / sizeof SIZES_PX[0] };
+
+typedef struct {
+    const char *device, *kernels;
+    uint64_t seed;
+    int rounds, threads;
+} Plan;
+
+void bench_set_threads(int threads) {
+    char text[16];
+    snprintf(text, sizeof text, "%d", threads);
+    setenv("POCL_MAX_PTHREAD_COUNT", text, 1);
+    setenv("SPLATLAB_THREADS", text, 1);
+}
+
+static json_t *row_of(const Plan *plan, const Camera *camera, int splats, const BenchResult *r) {
+    const BenchFigure *stage = r->stage;
+    return json_pack("{si si si si sI sf sf sf sf sf sf}", "threads", plan->threads, "width", camera->width, "height",
+                     camera->height, "splats", splats, "tile_pairs", (json_int_t)r->work.pairs, "evaluated_pairs",
+                     r->work.evaluated, "blend_forward_ms", stage[BENCH_BLEND_FORWARD].ms, "blend_backward_ms",
+                     stage[BENCH_BLEND_BACKWARD].ms, "blend_cpu_ms",
+                     stage[BENCH_BLEND_FORWARD].cpu_ms + stage[BENCH_BLEND_BACKWARD].cpu_ms, "frame_ms",
+                     stage[BENCH_FRAME].ms, "step_ms", stage[BENCH_STEP].ms);
+}
+
+static bool measure_row(Gpu *gpu, const Plan *plan, int splats, const int size_px[2], json_t *rows) {
+    static const bool WANTED[BENCH_STAGE_COUNT] = {
+        [BENCH_BLEND_FORWARD] = true, [BENCH_BLEND_BACKWARD] = true, [BENCH_FRAME] = true, [BENCH_STEP] = true};
+    const Camera camera = bench_scene_camera(size_px[0], size_px[1]);
+    Gaussians model = bench_scene_gaussians(plan->seed, splats, &camera);
+    Image8 photo = bench_scene_photo(plan->seed, camera.width, camera.height);
+    BenchStages *stages = NULL;
+    BenchResult result;
+    log_info("bench: %d splats at %dx%d px, %d threads", splats, camera.width, camera.height, plan->threads);
+    bool done = bench_stages_create(gpu, BLEND_AUTO, &model, &camera, &photo, &stages) &&
+                bench_measure(gpu, stages, WANTED, plan->rounds, false, &result);
+    bench_stages_destroy(stages);
+    image8_destroy(&photo);
+    gaussians_destroy(&model);
+    if (done) json_array_append_new(rows, row_of(plan, &camera, splats, &result));
+    return done;
+}
+
+static bool measure_all(const Plan *plan, json_t *rows) {
+    Gpu *gpu;
+    bench_set_threads(plan->threads);
+    if (plan->kernels[0]) gpu_set_kernel_folder(plan->kernels);
+    if (!gpu_open(plan->device, &gpu)) return false;
+    bool done = true;
+    for (int size = 0; size < SIZE_COUNT; size++)
+        for (int n = 0; done && n < SPLATS_COUNT; n++) done = measure_row(gpu, plan, SPLATS[n], SIZES_PX[size], rows);
+    gpu_close(gpu);
+    return done;
+}
+
+// Never returns.
+static void child(const Plan *plan, FILE *out) {
+    json_t *rows = json_array();
+    bool done = measure_all(plan, rows);
+    json_t *answer = done ? json_pack("{sO}", "rows", rows) : json_pack("{ss}", "error", fail_text());
+    json_dumpf(answer, out, JSON_COMPACT | JSON_REAL_PRECISION(9));
+    json_decref(answer);
+    json_decref(rows);
+    fclose(out);
+    _exit(done ? 0 : 1);
+}
+
+static bool measure_in_child(const Plan *plan, json_t *rows) {
+    int ends[2], status;
+    if (pipe(ends) != 0) return fail("cannot open a pipe to a process for %d threads", plan->threads);
+    fflush(NULL);
+    const pid_t process = fork();
+    if (process == 0) {
+        close(ends[0]);
+        child(plan, fdopen(ends[1], "w"));
+    }
+    close(ends[1]);
+    if (process < 0) {
+        close(ends[0]);
+        return fail("cannot start a process for %d threads", plan->threads);
+    }
+    json_t *answer = json_loadfd(ends[0], 0, NULL);
+    close(ends[0]);
+    waitpid(process, &status, 0);
+    const char *error = json_string_value(json_object_get(answer, "error"));
+    bool done = json_object_get(answer, "rows") != NULL;
+    if (done)
+        json_array_extend(rows, json_object_get(answer, "rows"));
+    else
+        fail("the process for %d threads failed: %s", plan->threads, error ? error : "it ended without an answer");
+    json_decref(answer);
+    return done;
+}
+
+static double number(const json_t *row, const char *key) { return json_number_value(json_object_get(row, key)); }
+
+static double pixels_times_splats(const json_t *row) {
+    return number(row, "width") * number(row, "height") * number(row, "splats");
+}
+
+static double evaluated(const json_t *row) { return number(row, "evaluated_pairs"); }
+
+// Slope of ln(cost) over ln(work), and the scatter around it: the standard deviation of ln(cost) from the line.
+static json_t *fit(const json_t *rows, int threads, double (*work)(const json_t *)) {
+    double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
+    size_t i;
+    const json_t *row;
+    json_array_foreach((json_t *)rows, i, row) {
+        if (number(row, "threads") != threads) continue;
+        const double x = log(work(row)), y = log(number(row, "blend_cpu_ms"));
+        n++, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y, sum_yy += y * y;
+    }
+    const double xx = sum_xx - sum_x * sum_x / n, xy = sum_xy - sum_x * sum_y / n, yy = sum_yy - sum_y * sum_y / n;
+    return json_pack("{sf sf}", "exponent", xy / xx, "scatter", sqrt(fmax(yy - xy * xy / xx, 0) / n));
+}
+
+static void add_fits(json_t *root, const json_t *rows, int threads) {
+    json_t *fits = json_object_get(root, "fits");
+    json_array_append_new(fits,
+                          json_pack("{si so so}", "threads", threads, "evaluated_pairs", fit(rows, threads, evaluated),
+                                    "pixels_times_splats", fit(rows, threads, pixels_times_splats)));
+}
+
+bool bench_scaling_run(const char *device, const char *kernels, uint64_t seed, int rounds, int most_threads,
+                       json_t **root) {
+    json_t *rows = json_array();
+    const int counts = most_threads > 1 ? 2 : 1;
+    bool done = true;
+    *root = json_pack("{sO so}", "rows", rows, "fits", json_array());
+    for (int i = 0; done && i < counts; i++) {
+        const Plan plan = {device, kernels, seed, rounds, i ? most_threads : 1};
+        done = measure_in_child(&plan, rows);
+        if (done) add_fits(*root, rows, plan.threads);
+    }
+    json_decref(rows);
+    if (!done) json_decref(*root);
+    return done;
+}
+
+void bench_scaling_print(const json_t *root) {
+    size_t i;
+    const json_t *row;
+    printf("threads      size   splats  tile pairs  evaluated   forward  backward  ns/pair     frame      step\n");
+    json_array_foreach(json_object_get(root, "rows"), i, row) printf(
+        "%7.0f %5.0fx%-4.0f %7.0f %11.0f %8.2f M %6.2f ms %6.2f ms %8.3f %6.2f ms %6.2f ms\n", number(row, "threads"),
+        number(row, "width"), number(row, "height"), number(row, "splats"), number(row, "tile_pairs"),
+        1e-6 * evaluated(row), number(row, "blend_forward_ms"), number(row, "blend_backward_ms"),
+        1e6 * number(row, "blend_cpu_ms") / evaluated(row), number(row, "frame_ms"), number(row, "step_ms"));
+    json_array_foreach(json_object_get(root, "fits"), i, row) {
+        const json_t *pairs = json_object_get(row, "evaluated_pairs"),
+                     *all = json_object_get(row, "pixels_times_splats");
+        printf("%.0f threads: cost of both blends ~ evaluated pairs^%.2f (scatter %.0f %%), ~ (pixels x splats)^%.2f "
+               "(scatter %.0f %%)\n",
+               number(row, "threads"), number(pairs, "exponent"), 100 * number(pairs, "scatter"),
+               number(all, "exponent"), 100 * number(all, "scatter"));
+    }
+}

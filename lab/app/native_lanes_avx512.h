@@ -1,0 +1,52 @@
+// native_lanes_avx512.h - sixteen floats in one AVX-512 register, under the names that native_ellipse.h and native_tile_*.h use.
+#ifndef SPLATLAB_LAB_APP_NATIVE_LANES_AVX512_H
+#define SPLATLAB_LAB_APP_NATIVE_LANES_AVX512_H
+
+#if defined(__x86_64__)
+#pragma GCC target("avx512f,avx512dq,fma,lzcnt,bmi")
+
+#include <immintrin.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef __m512 Lanes;
+typedef __mmask16 LaneMask;
+typedef __m512i LaneBits; // 32 bits a lane
+
+static inline Lanes lanes_all(float x) { return _mm512_set1_ps(x); }
+static inline Lanes lanes_load(const float *p) { return _mm512_loadu_ps(p); }
+static inline void lanes_store(float *p, Lanes v) { _mm512_storeu_ps(p, v); }
+static inline Lanes lanes_add(Lanes a, Lanes b) { return _mm512_add_ps(a, b); }
+static inline Lanes lanes_sub(Lanes a, Lanes b) { return _mm512_sub_ps(a, b); }
+static inline Lanes lanes_mul(Lanes a, Lanes b) { return _mm512_mul_ps(a, b); }
+static inline Lanes lanes_div(Lanes a, Lanes b) { return _mm512_div_ps(a, b); }
+static inline Lanes lanes_fma(Lanes a, Lanes b, Lanes c) { return _mm512_fmadd_ps(a, b, c); }
+static inline Lanes lanes_min(Lanes a, Lanes b) { return _mm512_min_ps(a, b); }
+static inline float lanes_sum(Lanes v) { return _mm512_reduce_add_ps(v); }
+static inline float lanes_max(Lanes v) { return _mm512_reduce_max_ps(v); }
+static inline void lanes_store_int(int32_t *p, Lanes v) { _mm512_storeu_si512(p, _mm512_cvtps_epi32(v)); }
+static inline Lanes lanes_load_int(const int32_t *p) { return _mm512_cvtepi32_ps(_mm512_loadu_si512(p)); }
+
+static inline LaneMask lanes_ge(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
+static inline LaneMask lane_mask_and(LaneMask a, LaneMask b) { return (LaneMask)(a & b); }
+static inline bool lane_mask_any(LaneMask m) { return m != 0; }
+// a where the mask is set, else b; or else 0
+static inline Lanes lanes_choose(LaneMask m, Lanes a, Lanes b) { return _mm512_mask_mov_ps(b, m, a); }
+static inline Lanes lanes_keep(LaneMask m, Lanes a) { return _mm512_maskz_mov_ps(m, a); }
+
+// 2^n times p, with n in the low bits of `shifted`: the end of exp2.
+static inline Lanes lanes_scale(Lanes p, Lanes shifted) {
+    return _mm512_castsi512_ps(
+        _mm512_add_epi32(_mm512_castps_si512(p), _mm512_slli_epi32(_mm512_castps_si512(shifted), 23)));
+}
+
+static inline LaneBits lane_bits_none(void) { return _mm512_setzero_si512(); }
+// Shifts every lane left by one and puts bit k of `mask` into lane k.
+static inline LaneBits lane_bits_push(LaneBits bits, uint16_t mask) {
+    const LaneBits shifted = _mm512_slli_epi32(bits, 1);
+    return _mm512_mask_or_epi32(shifted, mask, shifted, _mm512_set1_epi32(1));
+}
+static inline void lane_bits_store(uint32_t *p, LaneBits bits) { _mm512_storeu_si512(p, bits); }
+
+#endif
+#endif
