@@ -27,8 +27,8 @@ WalkResult pixel_walk(const Raster2d *raster, const RasterSettings *settings, do
             step->alpha = fmin(alpha, settings->rule.alpha_max);
             step->kind = pixel.opaque ? STEP_HIDDEN : alpha < settings->rule.alpha_min ? STEP_FAINT : STEP_BLENDED;
             step->weight = composite_blend(&pixel, &settings->rule, alpha, blob->rgb);
-            if (step->kind == STEP_BLENDED && step->before == pixel.transmittance && alpha > 0)
-                step->kind = STEP_HIDDEN;
+            bool stopped_before = pixel.opaque && settings->rule.rule == STOP_BEFORE_BLEND;
+            if (step->kind == STEP_BLENDED && stopped_before) step->kind = STEP_HIDDEN;
         }
         colour_so_far(&pixel, raster, settings, step->rgb);
         result.weights += step->weight;
