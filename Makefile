@@ -164,10 +164,6 @@ bench: all ## measure the speed of each stage, and how it grows with the work
 	$(PROGRAM) bench
 	$(PROGRAM) bench --scaling --rounds 5
 
-.PHONY: bench
-bench: all ## time each stage of training on this machine
-	$(PROGRAM) bench
-
 # ---- to check ----
 # PoCL and LLVM keep some memory until the program ends; tests/long/leaks.txt names them, all else must be freed.
 ifeq ($(MODE),asan)

@@ -19,8 +19,8 @@ struct BenchCeiling {
     PairGradient *records;
     size_t pixels, record_count;
 
-    char *from, *to; // copied between
-    size_t copy_bytes;
+    char *from, *to;               // copied between
+    size_t room_bytes, copy_bytes; // of each; of the stage at hand
 };
 
 BenchCeiling *bench_ceiling_create(const Gpu *gpu, BenchStages *stages) {
@@ -97,16 +97,17 @@ static void copy_part(void *context, int part) {
     memcpy(c->to + begin, c->from + begin, end - begin);
 }
 
-// Half of the bytes are read, half written.
+// Half of the bytes are read, half written. Memory grows to what the largest stage needs, and is touched beforehand.
 static double run_copy(BenchCeiling *c, size_t bytes) {
-    if (bytes / 2 != c->copy_bytes) {
+    c->copy_bytes = bytes / 2;
+    if (c->copy_bytes > c->room_bytes) {
         mem_free(c->from);
         mem_free(c->to);
-        c->copy_bytes = bytes / 2;
-        c->from = mem_alloc(c->copy_bytes, 1);
-        c->to = mem_alloc(c->copy_bytes, 1);
-        memset(c->from, 1, c->copy_bytes); // pages that were never written are all the same one
-        copy_part(c, 0);
+        c->room_bytes = c->copy_bytes;
+        c->from = mem_alloc(c->room_bytes, 1);
+        c->to = mem_alloc(c->room_bytes, 1);
+        memset(c->from, 1, c->room_bytes); // pages that were never written are all the same one
+        memset(c->to, 1, c->room_bytes);
     }
     const double began_s = clock_seconds();
     parallel_for(parallel_threads(), copy_part, c);
