@@ -30,7 +30,7 @@ enum { GROW_FIRST_SHARE = 8, GROW_ROUNDS = 12 }; // begins with 1 / 8 of the blo
 struct Fit2d {
     Fit2dOptions options;
     ImageF photo;
-    double background[3]; // the photograph's mean colour
+    double background[3]; // the photograph's median colour
     FitLoss *loss;
     FitPass *pass;
     Planes3 picture, d_picture;
@@ -156,11 +156,21 @@ static void add_blobs(Fit2d *fit, const double *weights, RngPurpose purpose, int
 
 // ---- create, destroy ----
 
-static void mean_colour(const ImageF *photo, double rgb[3]) {
+static int compare_numbers(const void *a, const void *b) {
+    double left = *(const double *)a, right = *(const double *)b;
+    return (left > right) - (left < right);
+}
+
+// Of all constants the median is nearest in L1.
+static void median_colour(const ImageF *photo, double rgb[3]) {
     ptrdiff_t pixels = (ptrdiff_t)photo->width * photo->height;
-    for (int c = 0; c < 3; c++) rgb[c] = 0;
-    for (ptrdiff_t i = 0; i < 3 * pixels; i++) rgb[i % 3] += (double)photo->values[i] / (double)pixels;
-    for (int c = 0; c < 3; c++) rgb[c] = clamp(rgb[c], 0, 1);
+    double *values = mem_alloc((size_t)pixels, sizeof *values);
+    for (int c = 0; c < 3; c++) {
+        for (ptrdiff_t i = 0; i < pixels; i++) values[i] = (double)photo->values[3 * i + c];
+        qsort(values, (size_t)pixels, sizeof *values, compare_numbers);
+        rgb[c] = clamp(values[pixels / 2], 0, 1);
+    }
+    mem_free(values);
 }
 
 Fit2d *fit2d_create(const ImageF *photo, const Fit2dOptions *options) {
@@ -169,7 +179,7 @@ Fit2d *fit2d_create(const ImageF *photo, const Fit2dOptions *options) {
     fit->options = *options;
     fit->photo = imagef_create(photo->width, photo->height, 3);
     imagef_paste(&fit->photo, photo, 0, 0);
-    mean_colour(photo, fit->background);
+    median_colour(photo, fit->background);
     fit->loss = fit_loss_create(photo, options->lambda);
     fit->pass = fit_pass_create(photo->width, photo->height);
     fit->picture = planes3_create(photo->width, photo->height);
