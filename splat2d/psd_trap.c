@@ -54,7 +54,8 @@ static double conic_loss(const PsdTrap *trap, Sym2 conic, Sym2 target, Sym2 *d_c
     if (d_conic) *d_conic = (Sym2){0};
     for (int j = 0; j < PSD_GRID; j++)
         for (int i = 0; i < PSD_GRID; i++) {
-            double dx = PSD_HALF_SIDE * ((2 * i + 1.0) / PSD_GRID - 1), dy = PSD_HALF_SIDE * ((2 * j + 1.0) / PSD_GRID - 1);
+            double dx = PSD_HALF_SIDE * ((2 * i + 1.0) / PSD_GRID - 1),
+                   dy = PSD_HALF_SIDE * ((2 * j + 1.0) / PSD_GRID - 1);
             double alpha = alpha_at(trap->opacity, conic, dx, dy);
             double difference = alpha - alpha_at(trap->opacity, target, dx, dy);
             sum += difference * difference;

@@ -16,16 +16,16 @@
 
 typedef enum { PSD_RAW, PSD_FACTORED, PSD_WAY_COUNT } PsdWay;
 
-static const double PSD_HALF_SIDE = 3;           // units: the picture is [-3, 3] x [-3, 3]
-enum { PSD_GRID = 48, PSD_PATH_MAX = 2000 };     // pixels a side; steps that a walk remembers
+static const double PSD_HALF_SIDE = 3;       // units: the picture is [-3, 3] x [-3, 3]
+enum { PSD_GRID = 48, PSD_PATH_MAX = 2000 }; // pixels a side; steps that a walk remembers
 
 // One descent.
 typedef struct {
     PsdWay way;
     double values[3]; // xx, xy, yy (units^2), or theta (rad), ln sigma_x, ln sigma_y
     double m[3], v[3];
-    int step;                     // done so far, at most PSD_PATH_MAX
-    Sym2 path[PSD_PATH_MAX + 1];  // Sigma after each step, from step 0
+    int step;                      // done so far, at most PSD_PATH_MAX
+    Sym2 path[PSD_PATH_MAX + 1];   // Sigma after each step, from step 0
     double loss[PSD_PATH_MAX + 1]; // of each
 } PsdWalk;
 

@@ -1,0 +1,251 @@
+#include "lab/base/rng.h"
+#include "lab/io/file.h"
+#include "lab/io/image_io.h"
+#include "splat2d/pixel_walk.h"
+#include "splat2d/scene2d_json.h"
+#include "tests/support/command.h"
+#include "tests/support/session.h"
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EVENTS = 1000 };
+
+// Skips the test where there is no screen to be had.
+static void start_widget(void) {
+    session_need_screen();
+    session_start("widget", NULL);
+}
+
+static int end_widget(void **state) {
+    (void)state;
+    session_end();
+    return 0;
+}
+
+static void a_drag_moves_the_mean_by_what_the_mouse_moved(void **state) {
+    (void)state;
+    start_widget();
+    double zoom = session_number("zoom"), at[2];
+    Blob before = session_scene()->blobs[0];
+    session_point(before.mean, at);
+    session_drag(round(at[0]), round(at[1]), round(at[0]) + 64, round(at[1]) - 40);
+    Blob after = session_scene()->blobs[0];
+    support_near((after.mean[0] - before.mean[0]) * zoom, 64, 1e-9, "x moved, window px");
+    support_near((after.mean[1] - before.mean[1]) * zoom, -40, 1e-9, "y moved, window px");
+    after.mean[0] = before.mean[0], after.mean[1] = before.mean[1];
+    assert_memory_equal(&after, &before, sizeof after); // and nothing else
+}
+
+static void a_handle_stretches_its_axis(void **state) {
+    (void)state;
+    start_widget();
+    double zoom = session_number("zoom"), at[2];
+    Blob before = session_scene()->blobs[0];
+    session_point((double[2]){before.mean[0] + before.sigma_x, before.mean[1]}, at);
+    session_drag(round(at[0]), round(at[1]), round(at[0]) + 50, round(at[1]) + 7);
+    Blob after = session_scene()->blobs[0];
+    support_near((after.sigma_x - before.sigma_x) * zoom, 50, 1e-9, "sigma_x, window px");
+    after.sigma_x = before.sigma_x;
+    assert_memory_equal(&after, &before, sizeof after);
+}
+
+static void the_round_handle_turns_the_blob_about_its_mean(void **state) {
+    (void)state;
+    start_widget();
+    double mean[2], slider[2], size[2];
+    Blob before = session_scene()->blobs[0];
+    session_point(before.mean, mean);
+    session_place("θ", slider, size);
+    double reach = before.sigma_x * session_number("zoom") + 1.7 * 14; // the arm is 1.7 ems of 14 px in this window
+    session_drag(round(mean[0] + reach), round(mean[1]), round(mean[0]), round(mean[1] + reach));
+    Blob after = session_scene()->blobs[0];
+    support_near(after.theta_rad, M_PI / 2, 0.03, "theta");
+    assert_true(after.mean[0] == before.mean[0] && after.sigma_x == before.sigma_x);
+}
+
+static void the_theta_slider_turns_sigma(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2];
+    session_do("key 4"); // the teal one, which is not round
+    Blob before = session_scene()->blobs[3];
+    session_place("θ", middle, size);
+    session_drag(middle[0], middle[1], middle[0] + size[0] / 4, middle[1]);
+    Blob after = session_scene()->blobs[3];
+    support_near(after.theta_rad, M_PI / 2, 0.1, "theta, three quarters along a slider from -pi to pi");
+    Eigen2 old_axes = sym2_eigen(blob_covariance(&before)), new_axes = sym2_eigen(blob_covariance(&after));
+    support_near(new_axes.major, old_axes.major, 1e-6, "major eigenvalue");
+    support_near(new_axes.minor, old_axes.minor, 1e-6, "minor eigenvalue");
+    support_near(new_axes.angle_rad, after.theta_rad, 1e-9, "angle of the major axis");
+}
+
+// Where teal (3) and orange (4) overlap: the first is in front until it is moved one place back.
+static void another_depth_order_changes_the_pixel(void **state) {
+    (void)state;
+    start_widget();
+    WalkStep steps[16];
+    Raster2d raster = {0};
+    RasterSettings settings = raster_settings_default();
+    raster2d_load(&raster, session_scene(), view2d_whole());
+    WalkResult before = pixel_walk(&raster, &settings, 660.5, 330.5, steps);
+    session_do("key 4 sleep 0.2 key bracketright sleep 0.2");
+    const Scene2d *scene = session_scene();
+    assert_int_equal(scene2d_rank(scene, 3), 2);
+    assert_int_equal(scene2d_rank(scene, 4), 1);
+    raster2d_load(&raster, scene, view2d_whole());
+    WalkResult after = pixel_walk(&raster, &settings, 660.5, 330.5, steps);
+    assert_true(after.rgb[0] > before.rgb[0] + 0.1); // more orange
+    support_near(after.transmittance, before.transmittance, 1e-12, "T does not depend on the order");
+    raster2d_destroy(&raster);
+}
+
+static void the_wheel_changes_the_depth_rank(void **state) {
+    (void)state;
+    start_widget();
+    double at[2];
+    session_point((double[2]){480, 100}, at);
+    int before = scene2d_rank(session_scene(), 0);
+    session_do("mousemove %.0f %.0f sleep 0.2 click 4 sleep 0.3", at[0], at[1]);
+    assert_int_equal(scene2d_rank(session_scene(), 0), before - 1);
+    session_do("click 5 sleep 0.3 click 5 sleep 0.3");
+    assert_int_equal(scene2d_rank(session_scene(), 0), before + 1);
+}
+
+static void undo_restores_the_bytes(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2], at[2];
+    char *first = strdup(session_bytes());
+    session_point(session_scene()->blobs[0].mean, at);
+    session_drag(round(at[0]), round(at[1]), round(at[0]) + 31, round(at[1]) + 17);
+    session_place("opacity", middle, size);
+    session_drag(middle[0] + size[0] * 0.4, middle[1], middle[0], middle[1]);
+    session_do("key x sleep 0.2 key d sleep 0.2 key Delete sleep 0.2 key Delete sleep 0.2");
+    assert_int_equal(session_scene()->count, 5);
+    char *last = strdup(session_bytes());
+    for (int i = 0; i < 6; i++) session_do("key ctrl+z sleep 0.2");
+    assert_string_equal(session_bytes(), first);
+    for (int i = 0; i < 6; i++) session_do("key ctrl+y sleep 0.2");
+    assert_string_equal(session_bytes(), last);
+    free(first);
+    free(last);
+}
+
+static void a_saved_scene_is_loaded_again(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2];
+    session_do("key n sleep 0.2 key ctrl+s sleep 0.3");
+    char *saved = strdup(session_bytes());
+    assert_true(file_exists(support_path(support_scratch(), "scene.json")));
+    session_place("Delete", middle, size);
+    session_do("mousemove %.0f %.0f sleep 0.2 click 1 sleep 0.3", middle[0], middle[1]);
+    assert_int_equal(session_scene()->count, 6);
+    session_do("key ctrl+o sleep 0.3 key ctrl+e sleep 0.5");
+    assert_string_equal(session_bytes(), saved);
+    Image8 picture = {0};
+    assert_true(image_load8(support_path(support_scratch(), "scene.png"), &picture));
+    assert_int_equal(picture.width, 960);
+    image8_destroy(&picture);
+    free(saved);
+}
+
+// ---- anything goes ----
+
+static const char *const KEYS[] = {
+    "x",      "shift+x", "y",      "shift+y", "t",         "shift+t",     "o",      "shift+o", "n",      "d",
+    "Delete", "Tab",     "1",      "7",       "b",         "g",           "h",      "l",       "p",      "m",
+    "F1",     "Escape",  "0",      "plus",    "minus",     "bracketleft", "F11",    "Up",      "Left",   "Next",
+    "ctrl+z", "ctrl+y",  "ctrl+r", "ctrl+s",  "ctrl+plus", "ctrl+minus",  "ctrl+o", "space",   "Return", "ctrl+e"};
+enum { KEY_COUNT = sizeof KEYS / sizeof KEYS[0] };
+
+static void write_event(FILE *script, Rng *rng) {
+    uint32_t kind = rng_below(rng, 10);
+    if (kind < 4)
+        fprintf(script, "mousemove %u %u\n", rng_below(rng, SESSION_WIDTH), rng_below(rng, SESSION_HEIGHT));
+    else if (kind < 6)
+        fprintf(script, "%s 1\n", rng_below(rng, 2) ? "mousedown" : "mouseup");
+    else if (kind < 7)
+        fprintf(script, "click %u\n", 1 + rng_below(rng, 5));
+    else
+        fprintf(script, "key %s\n", KEYS[rng_below(rng, KEY_COUNT)]);
+    if (rng_below(rng, 4) == 0) fprintf(script, "sleep 0.02\n");
+}
+
+static void a_thousand_random_events_do_not_end_it(void **state) {
+    (void)state;
+    start_widget();
+    const char *text = getenv("SPLATLAB_TEST_SEED");
+    uint64_t seed = text ? strtoull(text, NULL, 10) : 20;
+    Rng rng = rng_at(seed, RNG_TEST, 0, 0);
+    char *events = NULL;
+    size_t size;
+    FILE *script = open_memstream(&events, &size);
+    for (int i = 0; i < EVENTS; i++) write_event(script, &rng);
+    fprintf(script, "mouseup 1\n");
+    fclose(script);
+    print_message("random events of seed %llu (set SPLATLAB_TEST_SEED for others)\n", (unsigned long long)seed);
+    session_do("%s", events);
+    free(events);
+    assert_true(session_is_alive());
+    assert_true(scene2d_check(session_scene(), "state")); // what it wrote can be read
+    assert_int_equal(session_end(), 0);
+}
+
+// ---- the command ----
+
+static void a_screenshot_shows_the_picture(void **state) {
+    (void)state;
+    session_need_screen();
+    const char *path = support_path(support_scratch(), "shot.png");
+    CommandResult r = command_run("widget", "--frames", "5", "--size", "1200x800", "--screenshot", path, NULL);
+    command_expect(&r, 0);
+    Image8 shot = {0};
+    assert_true(image_load8(path, &shot));
+    assert_int_equal(shot.width, 1200);
+    assert_int_equal(shot.height, 800);
+    double sum = 0, squares = 0, count = 1200 * 800 * 3;
+    for (int i = 0; i < 1200 * 800 * 3; i++) sum += shot.bytes[i], squares += shot.bytes[i] * shot.bytes[i];
+    assert_true(sqrt(squares / count - sum / count * sum / count) > 10);
+    image8_destroy(&shot);
+}
+
+static void without_a_display_it_says_what_to_do(void **state) {
+    (void)state;
+    char *display = getenv("DISPLAY"), *kept = display ? strdup(display) : NULL;
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    CommandResult r = command_run("widget", "--frames", "1", NULL);
+    if (kept) setenv("DISPLAY", kept, 1);
+    free(kept);
+    command_expect_error(&r, 1, "no display", "xvfb-run", NULL);
+}
+
+static void a_scene_that_is_wrong_is_named(void **state) {
+    (void)state;
+    CommandResult r = command_run("widget", "none.json", NULL);
+    command_expect_error(&r, 1, "none.json", NULL);
+    r = command_run("widget", "--screenshot", "a.png", NULL);
+    command_expect_error(&r, 2, "--frames", NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(a_drag_moves_the_mean_by_what_the_mouse_moved, end_widget),
+        cmocka_unit_test_teardown(a_handle_stretches_its_axis, end_widget),
+        cmocka_unit_test_teardown(the_round_handle_turns_the_blob_about_its_mean, end_widget),
+        cmocka_unit_test_teardown(the_theta_slider_turns_sigma, end_widget),
+        cmocka_unit_test_teardown(another_depth_order_changes_the_pixel, end_widget),
+        cmocka_unit_test_teardown(the_wheel_changes_the_depth_rank, end_widget),
+        cmocka_unit_test_teardown(undo_restores_the_bytes, end_widget),
+        cmocka_unit_test_teardown(a_saved_scene_is_loaded_again, end_widget),
+        cmocka_unit_test_teardown(a_thousand_random_events_do_not_end_it, end_widget),
+        cmocka_unit_test(a_screenshot_shows_the_picture),
+        cmocka_unit_test(without_a_display_it_says_what_to_do),
+        cmocka_unit_test(a_scene_that_is_wrong_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

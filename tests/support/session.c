@@ -1,0 +1,183 @@
+#include "tests/support/session.h"
+
+#include "lab/base/fail.h"
+#include "lab/base/mem.h"
+#include "lab/io/file.h"
+#include "lab/io/json_io.h"
+#include "splat2d/scene2d_json.h"
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static pid_t screen_process, program_process;
+static char state_path[4096], places_path[4096], script_path[4096];
+
+static void end_screen(void) {
+    if (program_process > 0) kill(program_process, SIGKILL);
+    if (screen_process > 0) kill(screen_process, SIGTERM);
+}
+
+static bool is_installed(const char *program) {
+    char command[128];
+    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", program);
+    return system(command) == 0;
+}
+
+// Xvfb chooses a free number itself and writes it to the pipe when it is ready.
+void session_need_screen(void) {
+    if (screen_process > 0) return;
+    if (!is_installed("Xvfb") || !is_installed("xdotool")) {
+        print_message("skipped: Xvfb or xdotool is not installed (make deps)\n");
+        skip();
+    }
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    screen_process = fork();
+    if (screen_process == 0) {
+        char number[16];
+        snprintf(number, sizeof number, "%d", ends[1]);
+        close(ends[0]);
+        if (!freopen("/dev/null", "w", stderr)) _exit(1);
+        execlp("Xvfb", "Xvfb", "-displayfd", number, "-screen", "0", "1280x800x24", "-nolisten", "tcp", (char *)NULL);
+        _exit(1);
+    }
+    close(ends[1]);
+    char display[16] = ":";
+    for (size_t i = 1; i < sizeof display - 1 && !strchr(display, '\n'); i++) // it writes number and newline apart
+        if (read(ends[0], display + i, 1) != 1) fail_msg("Xvfb did not start");
+    close(ends[0]);
+    display[strcspn(display, "\n")] = 0;
+    setenv("DISPLAY", display, 1);
+    atexit(end_screen);
+}
+
+static void run_program(const char *program, const char *command, const char *argument) {
+    char size[32];
+    snprintf(size, sizeof size, "%dx%d", SESSION_WIDTH, SESSION_HEIGHT);
+    if (chdir(support_scratch()) != 0 || !freopen("program.err", "w", stderr)) _exit(126);
+    execl(program, program, command, "--size", size, "--state-file", state_path, "--places-file", places_path, argument,
+          (char *)NULL);
+    _exit(127);
+}
+
+void session_start(const char *command, const char *argument) {
+    const char *path = getenv("SPLATLAB");
+    char *program = realpath(path ? path : "./splatlab", NULL);
+    if (!program) fail_msg("there is no program %s; build it with make, or set SPLATLAB", path ? path : "./splatlab");
+    snprintf(state_path, sizeof state_path, "%s/state.json", support_scratch());
+    snprintf(places_path, sizeof places_path, "%s/places.json", support_scratch());
+    snprintf(script_path, sizeof script_path, "%s/script.xdo", support_scratch());
+    unlink(state_path);
+    unlink(places_path);
+    program_process = fork();
+    if (program_process == 0) run_program(program, command, argument);
+    free(program);
+    for (int tries = 0; tries < 300 && !file_exists(places_path); tries++) {
+        assert_true(session_is_alive());
+        usleep(100000);
+    }
+    session_do("sleep 0.3");
+}
+
+bool session_is_alive(void) {
+    if (program_process <= 0) return false;
+    if (waitpid(program_process, NULL, WNOHANG) == 0) return true;
+    program_process = 0;
+    return false;
+}
+
+int session_end(void) {
+    int status;
+    if (program_process <= 0) return -1;
+    kill(program_process, SIGTERM);
+    waitpid(program_process, &status, 0);
+    program_process = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void session_do(const char *format, ...) {
+    va_list values;
+    FILE *script = fopen(script_path, "w");
+    assert_non_null(script);
+    va_start(values, format);
+    vfprintf(script, format, values);
+    va_end(values);
+    fprintf(script, "\nsleep 0.1\n");
+    fclose(script);
+    char command[4200];
+    snprintf(command, sizeof command, "xdotool '%s'", script_path);
+    assert_int_equal(system(command), 0);
+}
+
+void session_drag(double x0, double y0, double x1, double y1) {
+    session_do("mousemove %.0f %.0f\nsleep 0.2\nmousedown 1\nsleep 0.2\nmousemove %.0f %.0f\nsleep 0.1\n"
+               "mousemove %.0f %.0f\nsleep 0.2\nmouseup 1\nsleep 0.2",
+               x0, y0, (x0 + x1) / 2, (y0 + y1) / 2, x1, y1);
+}
+
+// The file, when it has not changed for a while; owned by the caller.
+static char *settled_bytes(void) {
+    char *bytes = NULL;
+    for (int same = 0, tries = 0; same < 4 && tries < 200; tries++) {
+        char *now = NULL;
+        size_t size;
+        usleep(100000);
+        if (!file_read(state_path, &now, &size)) continue;
+        same = bytes && strcmp(bytes, now) == 0 ? same + 1 : 0;
+        mem_free(bytes);
+        bytes = now;
+    }
+    assert_non_null(bytes);
+    return bytes;
+}
+
+const char *session_bytes(void) {
+    static char *kept;
+    mem_free(kept);
+    return kept = settled_bytes();
+}
+
+const Scene2d *session_scene(void) {
+    static Scene2d kept;
+    session_bytes();
+    scene2d_destroy(&kept);
+    if (!scene2d_load(state_path, &kept)) fail_msg("%s", fail_text());
+    return &kept;
+}
+
+static void read_place(const char *name, double *values, int count) {
+    json_t *root;
+    if (!json_read(places_path, &root)) fail_msg("%s", fail_text());
+    bool good = count == 1 ? json_get_number(root, name, places_path, values)
+                           : json_get_numbers(root, name, places_path, values, count);
+    json_decref(root);
+    if (!good) fail_msg("%s", fail_text());
+}
+
+void session_place(const char *label, double middle[2], double size[2]) {
+    double r[4];
+    read_place(label, r, 4);
+    for (int c = 0; c < 2; c++) {
+        middle[c] = r[c] + r[c + 2] / 2;
+        size[c] = r[c + 2];
+    }
+}
+
+double session_number(const char *name) {
+    double value;
+    read_place(name, &value, 1);
+    return value;
+}
+
+void session_point(const double canvas[2], double window[2]) {
+    double middle[2], size[2], zoom = session_number("zoom");
+    const Scene2d *scene = session_scene();
+    session_place("canvas", middle, size);
+    window[0] = middle[0] + (canvas[0] - scene->width / 2.0) * zoom;
+    window[1] = middle[1] + (canvas[1] - scene->height / 2.0) * zoom;
+}
