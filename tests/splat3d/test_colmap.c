@@ -128,7 +128,7 @@ static void reduced_images_scale_the_intrinsics(void **state) {
         assert_int_equal(unlink(support_path(images, (const char *[]){"a.png", "b c.png", "B.png"}[i])), 0);
     mem_free(images);
     scene_write_image(folder, "images_8/b c.png", 2, 1, 3); // the larger pictures are taken
-    scene_write_image(folder, "images_4/a.png", 6, 5, 3); // 18 / 4 = 4.5 was rounded up
+    scene_write_image(folder, "images_4/a.png", 6, 5, 3);   // 18 / 4 = 4.5 was rounded up
     scene_write_image(folder, "images_4/b c.png", 3, 2, 3);
     scene_write_image(folder, "images_4/B.png", 3, 2, 3);
     Dataset read = scene_open(folder, 1);
