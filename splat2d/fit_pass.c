@@ -6,18 +6,20 @@
 #include "splat2d/fit_rows.h"
 
 #include <assert.h>
+#include <string.h>
 
 enum { BAND_ROWS = 16 };
 _Static_assert((int)FIT_PARAMETERS == (int)FIT_FIELDS, "the header names the fields that fit_rows.h defines");
 
 struct FitPass {
     int width, height, bands;
-    Planes3 state;  // T, last and one spare plane
-    Planes3 behind; // backward: the colour behind
-    int count;      // blobs of the pass that is under way
-    FitBlob *blobs; // (blob_capacity)
+    Planes3 state;            // of each pixel: T in plane 0, `last` in plane 1
+    Planes3 behind;           // backward: the colour behind
+    int count;                // blobs of the pass that is under way
+    FitBlob *blobs;           // (blob_capacity)
+    double (*sums)[FIT_SUMS]; // (blob_capacity)
     int blob_capacity;
-    int *band_start;    // (bands + 1): the band's list is pairs[band_start[b]] .. pairs[band_start[b + 1] - 1]
+    int *band_start;    // (bands + 1): where the list of each band begins in pair_blob
     int *pair_blob;     // (pair_capacity) front to back within a band
     FitSums *pair_sums; // (pair_capacity)
     int pair_capacity;
@@ -42,6 +44,7 @@ void fit_pass_destroy(FitPass *pass) {
     planes3_destroy(&pass->state);
     planes3_destroy(&pass->behind);
     mem_free(pass->blobs);
+    mem_free(pass->sums);
     mem_free(pass->band_start);
     mem_free(pass->pair_blob);
     mem_free(pass->pair_sums);
@@ -53,7 +56,9 @@ void fit_pass_destroy(FitPass *pass) {
 static void reserve_blobs(FitPass *pass, int count) {
     if (count <= pass->blob_capacity) return;
     mem_free(pass->blobs);
+    mem_free(pass->sums);
     pass->blobs = mem_alloc((size_t)count, sizeof *pass->blobs);
+    pass->sums = mem_alloc((size_t)count, sizeof *pass->sums);
     pass->blob_capacity = count;
 }
 
@@ -153,9 +158,10 @@ void fit_pass_backward(FitPass *pass, const double *parameters, const Planes3 *d
     pass->d_picture = d_picture;
     parallel_for(pass->bands, band_backward, pass);
 
-    // Each blob's sums over the bands, in their order; the pairs' lists are not sorted by blob, so d_parameters collects.
+    // Each blob's sums over the bands, in their order; the pairs' lists are not sorted by blob, so each pair adds to its blob's.
     int count = pass->count;
-    double(*sums)[FIT_SUMS] = mem_alloc((size_t)count, sizeof *sums);
+    double(*sums)[FIT_SUMS] = pass->sums;
+    memset(sums, 0, (size_t)count * sizeof *sums);
     for (int pair = 0; pair < pass->band_start[pass->bands]; pair++)
         for (int k = 0; k < FIT_SUMS; k++)
             sums[pass->pair_blob[pair]][k] += (double)lanes_sum(pass->pair_sums[pair].sum[k]);
@@ -165,5 +171,4 @@ void fit_pass_backward(FitPass *pass, const double *parameters, const Planes3 *d
         blob_backward(p, sums[i], d_p);
         for (int field = 0; field < FIT_FIELDS; field++) d_parameters[field * (ptrdiff_t)count + i] = d_p[field];
     }
-    mem_free(sums);
 }

@@ -6,7 +6,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // ---- create, copy, destroy ----
@@ -140,34 +139,40 @@ void scene2d_remove(Scene2d *scene, int index) {
 
 // ---- depth order ----
 
-typedef struct {
-    double depth;
-    int index;
-} DepthKey;
-
-static int by_depth_then_index(const void *a, const void *b) {
-    const DepthKey *left = a, *right = b;
-    if (left->depth != right->depth) return left->depth < right->depth ? -1 : 1;
-    return (left->index > right->index) - (left->index < right->index);
+// No two blobs are equal in this order.
+static bool lies_behind(const Scene2d *scene, int a, int b) {
+    double depth_a = scene->blobs[a].depth, depth_b = scene->blobs[b].depth;
+    return depth_a != depth_b ? depth_a > depth_b : a > b;
 }
 
-// No two keys are equal, so the order is the same whatever way qsort() sorts.
+// Lets the index at `place` of the heap sink until both below it lie in front of it.
+static void sink(const Scene2d *scene, int *heap, int count, int place) {
+    for (int below = 2 * place + 1; below < count; below = 2 * place + 1) {
+        if (below + 1 < count && lies_behind(scene, heap[below + 1], heap[below])) below++;
+        if (!lies_behind(scene, heap[below], heap[place])) return;
+        int index = heap[place];
+        heap[place] = heap[below];
+        heap[below] = index;
+        place = below;
+    }
+}
+
+// Heap sort: in place, because a window asks at every frame, and qsort() may allocate.
 void scene2d_order(const Scene2d *scene, int *order) {
-    DepthKey *keys = mem_alloc((size_t)scene->count, sizeof *keys);
-    for (int i = 0; i < scene->count; i++) keys[i] = (DepthKey){scene->blobs[i].depth, i};
-    qsort(keys, (size_t)scene->count, sizeof *keys, by_depth_then_index);
-    for (int i = 0; i < scene->count; i++) order[i] = keys[i].index;
-    mem_free(keys);
+    for (int i = 0; i < scene->count; i++) order[i] = i;
+    for (int place = scene->count / 2 - 1; place >= 0; place--) sink(scene, order, scene->count, place);
+    for (int end = scene->count - 1; end > 0; end--) {
+        int hindmost = order[0];
+        order[0] = order[end];
+        order[end] = hindmost;
+        sink(scene, order, end, 0);
+    }
 }
 
 int scene2d_rank(const Scene2d *scene, int index) {
     assert(index >= 0 && index < scene->count);
-    DepthKey own = {scene->blobs[index].depth, index};
     int rank = 0;
-    for (int i = 0; i < scene->count; i++) {
-        DepthKey other = {scene->blobs[i].depth, i};
-        rank += by_depth_then_index(&other, &own) < 0;
-    }
+    for (int i = 0; i < scene->count; i++) rank += lies_behind(scene, index, i);
     return rank;
 }
 

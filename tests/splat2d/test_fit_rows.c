@@ -147,6 +147,27 @@ static void the_colours_gradients_and_the_background_share_one_whole(void **stat
     support_near(of_colours + of_background, 3.0 * WIDTH * HEIGHT, 1e-9, "sum of all weights");
 }
 
+// Solid blobs as large as the picture, all in one place: T falls by 0.01 with each, so at most three are seen.
+static void nothing_is_blended_behind_an_opaque_pixel(void **state) {
+    (void)state;
+    static Picture picture;
+    double p[PARAMETERS], d_p[PARAMETERS];
+    random_parameters(1, p);
+    for (int i = 0; i < BLOBS; i++) {
+        p[FIT_MEAN_X * BLOBS + i] = 11, p[FIT_MEAN_Y * BLOBS + i] = 18;
+        p[FIT_LOG_SX * BLOBS + i] = p[FIT_LOG_SY * BLOBS + i] = 7;
+        p[FIT_OPACITY_LOGIT * BLOBS + i] = 6;
+    }
+    random_weights(1, &picture);
+    forward(p, &picture);
+    backward(p, &picture, d_p);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) assert_in_range((int)picture.last[y][x], 2, 3);
+    for (int k = 0; k < FIT_FIELDS; k++)
+        for (int i = 3; i < BLOBS; i++) assert_true(d_p[k * BLOBS + i] == 0);
+    assert_true(d_p[FIT_RGB * BLOBS] != 0);
+}
+
 // ---- the library's floats ----
 
 static void floats_agree_with_doubles_forward_and_backward(void **state) {
@@ -187,6 +208,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_derivative_is_that_of_the_loss),
         cmocka_unit_test(the_colours_gradients_and_the_background_share_one_whole),
+        cmocka_unit_test(nothing_is_blended_behind_an_opaque_pixel),
         cmocka_unit_test(floats_agree_with_doubles_forward_and_backward),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
