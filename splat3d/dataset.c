@@ -162,6 +162,24 @@ void dataset_destroy(Dataset *dataset) {
 
 // ---- images ----
 
+bool dataset_read_image(const Dataset *dataset, const View *view, Image8 *image) {
+    bool ok = view->as_stored ? image_load8_stored(view->path, image) : image_load8(view->path, image);
+    if (!ok) return fail_context("view %s", view->name);
+    if (dataset->downscale > 1) {
+        Image8 small = image8_downscale(image, dataset->downscale);
+        image8_destroy(image);
+        *image = small;
+    }
+    const Camera *camera = &view->camera;
+    if (image->width == camera->width && image->height == camera->height && image->channels == view->channels)
+        return true;
+    fail("image %s changed since the scene was opened: it has %dx%d px and %d channels, the scene says %dx%d and %d; "
+         "begin again",
+         view->path, image->width, image->height, image->channels, camera->width, camera->height, view->channels);
+    image8_destroy(image);
+    return false;
+}
+
 typedef struct {
     Dataset *dataset;
     Progress progress;
@@ -172,19 +190,10 @@ typedef struct {
 static bool load_image(void *context, int index) {
     Loading *loading = context;
     View *view = &loading->dataset->views[index];
-    int k = loading->dataset->downscale;
     Image8 image;
-    bool ok = view->as_stored ? image_load8_stored(view->path, &image) : image_load8(view->path, &image);
-    if (!ok) return fail_context("view %s", view->name);
-    if (k > 1) {
-        Image8 small = image8_downscale(&image, k);
-        image8_destroy(&image);
-        image = small;
-    }
+    if (!dataset_read_image(loading->dataset, view, &image)) return false;
     image8_destroy(&view->image);
     view->image = image;
-    if (image.width != view->camera.width || image.height != view->camera.height || image.channels != view->channels)
-        return fail("image %s changed since the scene was opened", view->path);
 
     pthread_mutex_lock(&loading->lock);
     progress_update(&loading->progress, ++loading->done, NULL);

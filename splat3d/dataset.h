@@ -44,6 +44,9 @@ bool dataset_open(const char *path, int downscale, Dataset *dataset);
 // Decodes all images, in parallel, as 8-bit, downscaled; shows progress. Fails with the first broken image by name.
 bool dataset_load_images(Dataset *dataset);
 
+// One photograph as dataset_load_images() would hold it, read from its file; owned by the caller.
+bool dataset_read_image(const Dataset *dataset, const View *view, Image8 *image);
+
 void dataset_destroy(Dataset *dataset); // accepts a zeroed or half-built one
 
 int dataset_train_count(const Dataset *dataset);

@@ -4,7 +4,6 @@
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "lab/base/progress.h"
-#include "lab/io/image_io.h"
 #include "splat2d/loss.h"
 
 #include <math.h>
@@ -30,22 +29,11 @@ static int *list_views(const Dataset *dataset, int *count) {
 
 // The view's photograph over the background, (H, W, 3).
 static bool load_photo(const Dataset *dataset, const View *view, const float background[3], ImageF *photo) {
-    Image8 full = {0}, small = {0};
-    const Image8 *image = &view->image;
-    if (!image->bytes) {
-        if (!image_load8(view->path, &full)) return false;
-        small = image8_downscale(&full, dataset->downscale);
-        image = &small;
-    }
-    bool fits = image->width == view->camera.width && image->height == view->camera.height;
-    if (fits)
-        *photo = imagef_over(image, background);
-    else
-        fail("image %s has %dx%d pixels, its camera %dx%d; were the pictures changed after the cameras were found?",
-             view->path, image->width, image->height, view->camera.width, view->camera.height);
-    image8_destroy(&full);
-    image8_destroy(&small);
-    return fits;
+    Image8 read = {0};
+    if (!view->image.bytes && !dataset_read_image(dataset, view, &read)) return false;
+    *photo = imagef_over(view->image.bytes ? &view->image : &read, background);
+    image8_destroy(&read);
+    return true;
 }
 
 static void clip(ImageF *image) {

@@ -5,6 +5,7 @@
 #include "tests/support/support.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // ---- a renderer whose pictures are known: grey (value) over the settings' background, alpha 1 ----
@@ -146,6 +147,31 @@ static void a_photograph_that_is_not_in_memory_is_read_and_downscaled(void **sta
     dataset_destroy(&d);
 }
 
+// A camera of COLMAP belongs to the pixels as they stand in the file, whatever its EXIF orientation says.
+static void a_photograph_is_read_as_its_camera_saw_it(void **state) {
+    (void)state;
+    char *command = mem_format("command -v oiiotool > /dev/null && oiiotool --pattern constant:color=0,0,0 %dx%d 3 "
+                               "-d uint8 --orientation 6 -o '%s/turned.tif'",
+                               WIDTH, HEIGHT, support_scratch());
+    bool made = system(command) == 0;
+    mem_free(command);
+    if (!made) {
+        print_message("skipped: no oiiotool (Debian: openimageio-tools)\n");
+        skip();
+    }
+    Dataset d = make_dataset(1 << 3, 3, 255);
+    mem_free(d.views[3].path);
+    d.views[3].path = mem_text(support_path(support_scratch(), "turned.tif"));
+    d.views[3].as_stored = true;
+    image8_destroy(&d.views[3].image);
+    FlatRasterizer flat = flat_rasterizer(0);
+    RenderSettings settings = render_settings_default();
+    Evaluation e = evaluate(&flat, &d, &settings);
+    support_near(e.psnr, 99, 0, "PSNR");
+    evaluation_destroy(&e);
+    dataset_destroy(&d);
+}
+
 static void a_render_that_fails_names_its_view(void **state) {
     (void)state;
     Dataset d = make_dataset(1 << 1 | 1 << 4, 3, 255);
@@ -203,6 +229,7 @@ int main(void) {
         cmocka_unit_test(renders_are_clipped_before_they_are_compared),
         cmocka_unit_test(transparent_photographs_are_laid_over_the_background),
         cmocka_unit_test(a_photograph_that_is_not_in_memory_is_read_and_downscaled),
+        cmocka_unit_test(a_photograph_is_read_as_its_camera_saw_it),
         cmocka_unit_test(a_render_that_fails_names_its_view),
         cmocka_unit_test(the_contact_sheet_shows_photo_render_and_error),
         cmocka_unit_test(the_protocol_is_stated),
