@@ -7,16 +7,16 @@
 
 // Total order along an axis: coordinate, then index, so that the tree does not depend on how the sort works.
 static int before(const double *xyz, int axis, int a, int b) {
-    double xa = xyz[3 * a + axis], xb = xyz[3 * b + axis];
+    double xa = xyz[3 * (size_t)a + axis], xb = xyz[3 * (size_t)b + axis];
     return xa < xb || (xa == xb && a < b);
 }
 
 static int widest_axis(const KdTree *tree, int begin, int end) {
     double low[3], high[3];
-    for (int a = 0; a < 3; a++) low[a] = high[a] = tree->xyz[3 * tree->order[begin] + a];
+    for (int a = 0; a < 3; a++) low[a] = high[a] = tree->xyz[3 * (size_t)tree->order[begin] + a];
     for (int i = begin + 1; i < end; i++)
         for (int a = 0; a < 3; a++) {
-            double x = tree->xyz[3 * tree->order[i] + a];
+            double x = tree->xyz[3 * (size_t)tree->order[i] + a];
             if (x < low[a]) low[a] = x;
             if (x > high[a]) high[a] = x;
         }
@@ -85,7 +85,7 @@ static void consider(Search *s, int point) {
     if (point == s->self) return;
     double d2 = 0;
     for (int a = 0; a < 3; a++) {
-        double d = s->tree->xyz[3 * point + a] - s->query[a];
+        double d = s->tree->xyz[3 * (size_t)point + a] - s->query[a];
         d2 += d * d;
     }
     if (s->found == s->wanted && d2 >= s->distance2[s->found - 1]) return;
@@ -100,12 +100,13 @@ static void search(Search *s, int begin, int end) {
     consider(s, point);
     if (end - begin == 1) return;
     int axis = s->tree->axis[middle];
-    double offset = s->query[axis] - s->tree->xyz[3 * point + axis];
+    double offset = s->query[axis] - s->tree->xyz[3 * (size_t)point + axis];
     if (offset < 0)
         search(s, begin, middle);
     else
         search(s, middle + 1, end);
-    if (s->found == s->wanted && offset * offset > s->distance2[s->found - 1]) return;
+    // Equal is far enough, too: only a nearer point would count, and a heap of points at one place is not searched through.
+    if (s->found == s->wanted && offset * offset >= s->distance2[s->found - 1]) return;
     if (offset < 0)
         search(s, middle + 1, end);
     else

@@ -57,6 +57,19 @@ static void small_clouds_have_fewer_neighbours(void **state) {
     for (int count = 1; count < 5; count++) check_against_all_pairs(7, count, 3);
 }
 
+// Each search ends at once; if it went through all points, this would take minutes.
+static void a_heap_of_points_at_one_place_is_done_quickly(void **state) {
+    (void)state;
+    enum { COUNT = 300000 };
+    double *xyz = mem_alloc(COUNT, 3 * sizeof(double)), *mean = mem_alloc(COUNT, sizeof(double));
+    KdTree tree = kd_tree_create(xyz, COUNT);
+    kd_tree_mean_distance2(&tree, 3, mean);
+    for (int i = 0; i < COUNT; i++) assert_true(mean[i] == 0);
+    kd_tree_destroy(&tree);
+    mem_free(xyz);
+    mem_free(mean);
+}
+
 static void mean_distance_on_a_lattice_is_its_spacing(void **state) {
     (void)state;
     double xyz[27 * 3], mean[27];
@@ -81,6 +94,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_are_those_of_a_search_over_all_pairs),
         cmocka_unit_test(small_clouds_have_fewer_neighbours),
+        cmocka_unit_test(a_heap_of_points_at_one_place_is_done_quickly),
         cmocka_unit_test(mean_distance_on_a_lattice_is_its_spacing),
         cmocka_unit_test(a_lone_point_has_no_distance),
     };
