@@ -20,6 +20,9 @@
 #include "shared.h"
 
 #include "blend_cpu.h"
+#include "prefetch.h"
+
+#define ENTRIES_AHEAD 4 // of the list: what is asked of memory before it is needed
 
 // The sixteen pixels of one block on their way from back to front.
 typedef struct {
@@ -38,6 +41,23 @@ static float sum16(float16 v) {
     const float4 b = a.lo + a.hi;
     const float2 c = b.lo + b.hi;
     return c.x + c.y;
+}
+
+// The sums of four vectors' lanes, still spread over four lanes each.
+static float16 sums_of_four(float16 a, float16 b, float16 c, float16 d) {
+    const float16 ab = (float16)(a.lo, b.lo) + (float16)(a.hi, b.hi);
+    const float16 cd = (float16)(c.lo, d.lo) + (float16)(c.hi, d.hi);
+    return (float16)(ab.s0123, ab.s89ab, cd.s0123, cd.s89ab) + (float16)(ab.s4567, ab.scdef, cd.s4567, cd.scdef);
+}
+
+// Lane sums, written as one record. Eight vectors are added up together, halving their lanes each time: half the work of one after
+// the other.
+static void store_record(const PairSums *sums, __global PairGradient *record) {
+    const float16 a = sums_of_four(sums->w, sums->wu, sums->wv, sums->wuu);
+    const float16 b = sums_of_four(sums->wuv, sums->wvv, sums->r, sums->g);
+    const float16 pairs = (float16)(a.s0145, a.s89cd, b.s0145, b.s89cd) + (float16)(a.s2367, a.sabef, b.s2367, b.sabef);
+    vstore8(pairs.even + pairs.odd, 0, (__global float *)record);
+    record->b = sum16(sums->b);
 }
 
 // Adds what the sixteen pixels say about one splat, and steps in front of it. index: of the splat in the tile's list.
@@ -73,12 +93,19 @@ static inline void unblend_block(const float alpha_max, const ScreenSplat *splat
     sums->b = fma(weight, state->g_blue, sums->b);
 }
 
-// Reads the pixels' state at the end of the forward pass; returns the tile's largest last.
+static int largest(int16 v) {
+    const int8 a = max(v.lo, v.hi);
+    const int4 b = max(a.lo, a.hi);
+    const int2 c = max(b.lo, b.hi);
+    return max(c.x, c.y);
+}
+
+// Reads the pixels' state at the end of the forward pass, and the largest last of each block; returns the tile's.
 static int load_tile(__private const FrameRecord *frame, int tile_x, int tile_y, __global const float *transmittance,
-                     __global const int *last, __global const float *d_rgb, BlockState *states) {
+                     __global const int *last, __global const float *d_rgb, BlockState *states, int *block_last) {
     const size_t plane = (size_t)frame->rows * frame->stride;
     const size_t tile = (size_t)tile_y * frame->tiles_x + tile_x;
-    int16 deepest = (int16)(0);
+    int deepest = 0;
     for (int block = 0; block < BLOCKS_PER_TILE; block++) {
         BlockState *state = &states[block];
         __global const float *g = d_rgb + block_origin(tile_x, tile_y, block, frame->stride);
@@ -89,12 +116,24 @@ static int load_tile(__private const FrameRecord *frame, int tile_x, int tile_y,
         state->last = vload16(tile * BLOCKS_PER_TILE + block, last);
         state->behind = state->t * (frame->background[0] * state->g_red + frame->background[1] * state->g_green +
                                     frame->background[2] * state->g_blue);
-        deepest = max(deepest, state->last);
+        block_last[block] = largest(state->last);
+        deepest = max(deepest, block_last[block]);
     }
-    const int8 a = max(deepest.lo, deepest.hi);
-    const int4 b = max(a.lo, a.hi);
-    const int2 c = max(b.lo, b.hi);
-    return max(c.x, c.y);
+    return deepest;
+}
+
+// The blocks, one bit each, that have a pixel which was still being blended at list entry `index`. *next: the next smaller index where
+// there are more of them.
+static uint begun_blocks(const int *block_last, int index, int *next) {
+    uint begun = 0;
+    *next = 0;
+    for (int block = 0; block < BLOCKS_PER_TILE; block++) {
+        if (block_last[block] > index)
+            begun |= 1u << block;
+        else
+            *next = max(*next, block_last[block]);
+    }
+    return begun;
 }
 
 __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *start, __global const uint *list_splat,
@@ -107,22 +146,28 @@ __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *s
     const uint begin = start[tile_y * frame.tiles_x + tile_x];
     const int count = (int)(start[tile_y * frame.tiles_x + tile_x + 1] - begin);
     BlockState states[BLOCKS_PER_TILE];
-    const int deepest = load_tile(&frame, tile_x, tile_y, transmittance, last, d_rgb, states);
+    int block_last[BLOCKS_PER_TILE];
+    const int deepest = load_tile(&frame, tile_x, tile_y, transmittance, last, d_rgb, states, block_last);
 
     const PairGradient nothing = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     for (int index = deepest; index < count; index++) records[list_slot[begin + index]] = nothing;
 
+    uint begun = 0; // the blocks that have anything to do here
+    int next = deepest;
     for (int index = deepest - 1; index >= 0; index--) {
+        if (index < next) begun = begun_blocks(block_last, index, &next);
+        if (index >= ENTRIES_AHEAD) { // splats and records lie in the order of the model, anywhere in memory
+            PREFETCH(screen + list_splat[begin + index - ENTRIES_AHEAD]);
+            PREFETCH(records + list_slot[begin + index - ENTRIES_AHEAD]);
+        }
         const ScreenSplat splat = screen[list_splat[begin + index]];
         PairSums sums;
         sums.w = sums.wu = sums.wv = sums.wuu = sums.wuv = sums.wvv = sums.r = sums.g = sums.b = (float16)(0);
-        for (uint bits = list_mask[begin + index]; bits; bits &= bits - 1) {
+        for (uint bits = list_mask[begin + index] & begun; bits; bits &= bits - 1) {
             const int block = 31 - (int)clz(bits & -bits);
             unblend_block(frame.alpha_max, &splat, index, block_x(tile_x, block), block_y(tile_y, block),
                           &states[block], &sums);
         }
-        const PairGradient record = {sum16(sums.w),   sum16(sums.wu), sum16(sums.wv), sum16(sums.wuu), sum16(sums.wuv),
-                                     sum16(sums.wvv), sum16(sums.r),  sum16(sums.g),  sum16(sums.b)};
-        records[list_slot[begin + index]] = record;
+        store_record(&sums, records + list_slot[begin + index]);
     }
 }

@@ -41,13 +41,13 @@ typedef struct {
     int16 last;
 } BlockState;
 
-// Blends the splats of one batch that reach this block. words: the block's bits, BLOCKS_PER_TILE apart; first: index of staged[0]
+// Blends the splats of one batch that reach this block, until its pixels are opaque. words: the block's bits, BLOCKS_PER_TILE apart; first: index of staged[0]
 // in the tile's list; x, y: pixel centres.
 static void blend_block(const float alpha_max, const uint *words, const ScreenSplat *staged, int first, float16 x,
                         float16 y, BlockState *state) {
     float16 t = state->t, r = state->r, g = state->g, b = state->b;
     int16 last = state->last;
-    for (int word = 0; word < WORDS; word++) {
+    for (int word = 0; word < WORDS && any(t >= TRANSMITTANCE_STOP); word++) {
         uint bits = words[BLOCKS_PER_TILE * word];
         while (bits) {
             const int i = 32 * word + (int)clz(bits);

@@ -17,7 +17,7 @@
 //     records (P): from blend_backward_*.cl
 //     d_mean .. d_sh3: gradients, same shapes as the fields; every number is written (0 for splats out of view), but degrees
 //         above frame.sh_degree are left alone
-//     gradient_px, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
+//     gradient_ndc, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
 //
 // One work-item: one Gaussian. Local memory: none. Reference: reference_project_backward(). Test: tests/splat3d/test_opencl_gradients.c.
 #include "shared.h"
@@ -123,7 +123,7 @@ __kernel void project_backward(const FrameRecord frame, __global const float *me
                                __global const PairGradient *records, __global float *d_mean,
                                __global float *d_log_scale, __global float *d_quat, __global float *d_opacity_logit,
                                __global float *d_sh0, __global float *d_sh1, __global float *d_sh2,
-                               __global float *d_sh3, const int has_statistics, __global float *gradient_px,
+                               __global float *d_sh3, const int has_statistics, __global float *gradient_ndc,
                                __global int *seen) {
     const int i = (int)get_global_id(0);
     if (i >= frame.splat_count) return;
@@ -137,7 +137,7 @@ __kernel void project_backward(const FrameRecord frame, __global const float *me
         const PairGradient sum = sum_records(tiles, offset[i], mask, records);
         gradient = splat_backward(&frame, sum, screen[i], opacity_logit[i], &p);
         if (has_statistics) {
-            gradient_px[i] += gradient.d_mean_ndc;
+            gradient_ndc[i] += gradient.d_mean_ndc;
             seen[i] += 1;
         }
         const float3 offset_world = mean_world - (float3)(frame.position[0], frame.position[1], frame.position[2]);

@@ -65,7 +65,7 @@ __kernel void ssim_backward(const SsimRecord s, __global const float *picture, _
         for (int map = 0; map < SSIM_MAPS; map++) {
             __global const float *column = maps + (map * 3 + channel) * map_plane + SSIM_MARGIN + x;
             float16 blurred = (float16)(0.0f);
-            SSIM_PREFETCH(column + clamp(y + SSIM_ROWS_AHEAD, 0, s.height - 1) * map_row + 16);
+            PREFETCH(column + clamp(y + SSIM_ROWS_AHEAD, 0, s.height - 1) * map_row + 16);
             if (y >= 0 && y < s.height) blurred = blur_row(s.window, column + y * map_row);
             ring[slot].map[map] = ring[slot + TAPS].map[map] = blurred;
         }
@@ -75,8 +75,8 @@ __kernel void ssim_backward(const SsimRecord s, __global const float *picture, _
             float16 gradient = (float16)(0.0f);
             if (y_out < s.height) {
                 const int y_ahead = min(y_out + SSIM_ROWS_AHEAD, s.height - 1);
-                SSIM_PREFETCH(picture + (channel * s.rows + y_ahead) * s.stride + x);
-                SSIM_PREFETCH(photo + y_ahead * s.stride + x);
+                PREFETCH(picture + (channel * s.rows + y_ahead) * s.stride + x);
+                PREFETCH(photo + y_ahead * s.stride + x);
                 const float16 value = ssim_picture16(picture + row, x, &s);
                 const float16 truth = ssim_photo16(photo + y_out * s.stride, x, &s, channel);
                 gradient = select(gradient, gradient16(&s, ring + slot + 1, value, truth), inside);

@@ -108,8 +108,8 @@ __kernel void ssim_forward(const SsimRecord s, __global const float *picture, __
         const float16 zero = (float16)(0.0f);
         SsimRow p = {zero, zero, zero}, q = p; // outside the picture
         const int y_ahead = clamp(y + SSIM_ROWS_AHEAD, 0, s.height - 1);
-        SSIM_PREFETCH(picture + (channel * s.rows + y_ahead) * s.stride + x + 16);
-        SSIM_PREFETCH(photo + y_ahead * s.stride + x + 16);
+        PREFETCH(picture + (channel * s.rows + y_ahead) * s.stride + x + 16);
+        PREFETCH(photo + y_ahead * s.stride + x + 16);
         if (y >= 0 && y < s.height) {
             ssim_picture_row(picture + (channel * s.rows + y) * s.stride, x, &s, &p);
             ssim_photo_row(photo + y * s.stride, x, &s, channel, &q);

@@ -15,6 +15,7 @@
 #ifndef SPLATLAB_KERNELS_SSIM_ROW_H
 #define SPLATLAB_KERNELS_SSIM_ROW_H
 
+#include "prefetch.h"
 #include "ssim.h"
 
 #define SSIM_SHIFT 0.5f
@@ -70,13 +71,8 @@ static void ssim_photo_row(__global const uint *row, int x, const SsimRecord *s,
     r->after = ssim_photo16(row, x + 16, s, channel);
 }
 
-// Asks for the line of memory that a row further down will need. A strip steps over memory by whole picture rows, wider than a
-// CPU foresees by itself: unasked, half the time would be waiting. OpenCL's prefetch() does nothing on PoCL.
-#if defined(POCL_DEVICE_ADDRESS_BITS) && !defined(__NVPTX__) // PoCL on a CPU; its compiler is clang
-#define SSIM_PREFETCH(pointer) __builtin_prefetch(pointer)
-#else
-#define SSIM_PREFETCH(pointer) prefetch(pointer, 1)
-#endif
+// How far ahead a strip asks for memory: it steps by whole picture rows, wider than a CPU foresees by itself; unasked, half the time
+// would be waiting.
 #define SSIM_ROWS_AHEAD 4
 
 // Sum of the lanes, always in this order.

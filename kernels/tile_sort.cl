@@ -20,6 +20,22 @@
 // One work-item: one chunk (one tile for the prefix). Local memory: none. Test: tests/splat3d/test_opencl_binning.c.
 #include "shared.h"
 
+#include "prefetch.h"
+
+#define BOXES_AHEAD 16 // splats, in depth order
+#define MASKS_AHEAD 8
+
+// Splats in depth order lie anywhere in memory: asks for what the loops below will read of later ones, first their boxes and offsets,
+// then the masks that those point to.
+static void ask_ahead(int rank, int end, __global const uint *order, __global const TileBox *box,
+                      __global const uint *offset, __global const ushort *mask) {
+    if (rank + BOXES_AHEAD < end) {
+        PREFETCH(box + order[rank + BOXES_AHEAD]);
+        PREFETCH(offset + order[rank + BOXES_AHEAD]);
+    }
+    if (rank + MASKS_AHEAD < end) PREFETCH(mask + offset[order[rank + MASKS_AHEAD]]);
+}
+
 __kernel void tile_sort_count(const int visible, const int chunk_length, const int tiles_x, const int tile_count,
                               const int chunk_count, __global const uint *order, __global const TileBox *box,
                               __global const uint *offset, __global const ushort *mask, __global uint *counts) {
@@ -31,6 +47,7 @@ __kernel void tile_sort_count(const int visible, const int chunk_length, const i
     const int end = min(visible, (chunk + 1) * chunk_length);
     for (int rank = chunk * chunk_length; rank < end; rank++) {
         const uint i = order[rank];
+        ask_ahead(rank, end, order, box, offset, mask);
         const TileBox tiles = box[i];
         uint slot = offset[i];
         for (int y = tiles.y0; y < tiles.y1; y++)
@@ -64,6 +81,7 @@ __kernel void tile_sort_scatter(const int visible, const int chunk_length, const
     const int end = min(visible, (chunk + 1) * chunk_length);
     for (int rank = chunk * chunk_length; rank < end; rank++) {
         const uint i = order[rank];
+        ask_ahead(rank, end, order, box, offset, mask);
         const TileBox tiles = box[i];
         uint slot = offset[i];
         for (int y = tiles.y0; y < tiles.y1; y++)

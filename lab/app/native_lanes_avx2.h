@@ -46,6 +46,16 @@ static inline float lanes_sum(Lanes v) {
     const __m128 c = _mm_add_ps(b, _mm_movehl_ps(b, b));
     return _mm_cvtss_f32(_mm_add_ss(c, _mm_movehdup_ps(c)));
 }
+// out[0..7]: the sums of eight vectors.
+static inline void lanes_sum8(float *out, Lanes a, Lanes b, Lanes c, Lanes d, Lanes e, Lanes f, Lanes g, Lanes h) {
+    const Lanes all[8] = {a, b, c, d, e, f, g, h};
+    __m256 half[8];
+    for (int k = 0; k < 8; k++) half[k] = _mm256_add_ps(all[k].low, all[k].high);
+    const __m256 ab_cd = _mm256_hadd_ps(_mm256_hadd_ps(half[0], half[1]), _mm256_hadd_ps(half[2], half[3]));
+    const __m256 ef_gh = _mm256_hadd_ps(_mm256_hadd_ps(half[4], half[5]), _mm256_hadd_ps(half[6], half[7]));
+    _mm256_storeu_ps(
+        out, _mm256_add_ps(_mm256_permute2f128_ps(ab_cd, ef_gh, 0x20), _mm256_permute2f128_ps(ab_cd, ef_gh, 0x31)));
+}
 static inline float lanes_max(Lanes v) {
     const __m256 a = _mm256_max_ps(v.low, v.high);
     const __m128 b = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));

@@ -8,6 +8,8 @@
 
 #if defined(__x86_64__)
 
+enum { ENTRIES_AHEAD = 4 };
+
 typedef struct {
     Lanes t, behind, g_red, g_green, g_blue, last;
 } BackwardState;
@@ -23,11 +25,11 @@ static Lanes load_block(const float *plane, int stride) {
     return lanes_load(lanes);
 }
 
-// Returns the tile's largest last.
-static int load_tile(const NativeBlend *blend, int tile, BackwardState *states) {
+// Also gives each block's largest last; returns the tile's.
+static int load_tile(const NativeBlend *blend, int tile, BackwardState *states, int *block_last) {
     const FrameRecord *frame = &blend->frame;
     const size_t plane = (size_t)frame->stride * (size_t)frame->rows;
-    float deepest = 0;
+    int deepest = 0;
     for (int block = 0; block < TILE_BLOCKS; block++) {
         BackwardState *s = &states[block];
         const float *d_rgb = blend->d_rgb + block_place(frame, tile, block);
@@ -40,10 +42,21 @@ static int load_tile(const NativeBlend *blend, int tile, BackwardState *states) 
         const Lanes red_green = lanes_fma(lanes_all(frame->background[0]), s->g_red,
                                           lanes_mul(lanes_all(frame->background[1]), s->g_green));
         s->behind = lanes_mul(s->t, lanes_fma(lanes_all(frame->background[2]), s->g_blue, red_green));
-        const float here = lanes_max(s->last);
-        if (here > deepest) deepest = here;
+        block_last[block] = (int)lanes_max(s->last);
+        if (block_last[block] > deepest) deepest = block_last[block];
     }
-    return (int)deepest;
+    return deepest;
+}
+
+static uint32_t begun_blocks(const int *block_last, int index, int *next) {
+    uint32_t begun = 0;
+    *next = 0;
+    for (int block = 0; block < TILE_BLOCKS; block++)
+        if (block_last[block] > index)
+            begun |= 1u << block;
+        else if (block_last[block] > *next)
+            *next = block_last[block];
+    return begun;
 }
 
 static inline void unblend_lanes(float alpha_max, const ScreenSplat *splat, int index, const float *x, const float *y,
@@ -81,30 +94,30 @@ static void backward_tile(const NativeBlend *blend, int tile) {
     BackwardState states[TILE_BLOCKS];
     TileCentres centres;
     tile_centres(&blend->frame, tile, &centres);
-    const int deepest = load_tile(blend, tile, states);
+    int block_last[TILE_BLOCKS];
+    const int deepest = load_tile(blend, tile, states, block_last);
+    uint32_t begun = 0;
+    int next = deepest;
     for (int index = deepest; index < count; index++)
         blend->records[blend->list_slot[begin + (uint32_t)index]] = (PairGradient){0};
     for (int index = deepest - 1; index >= 0; index--) {
         const uint32_t entry = begin + (uint32_t)index;
+        if (index < next) begun = begun_blocks(block_last, index, &next);
+        if (index >= ENTRIES_AHEAD) {
+            __builtin_prefetch(&blend->screen[blend->list_splat[entry - ENTRIES_AHEAD]]);
+            __builtin_prefetch(&blend->records[blend->list_slot[entry - ENTRIES_AHEAD]]);
+        }
         const ScreenSplat splat = blend->screen[blend->list_splat[entry]];
         const Lanes zero = lanes_all(0);
         PairSums sums = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
-        for (uint32_t bits = blend->list_mask[entry]; bits; bits &= bits - 1) {
+        for (uint32_t bits = blend->list_mask[entry] & begun; bits; bits &= bits - 1) {
             const int block = __builtin_ctz(bits);
             unblend_lanes(blend->frame.alpha_max, &splat, index, centres.x[block], centres.y[block], &states[block],
                           &sums);
         }
-        blend->records[blend->list_slot[entry]] = (PairGradient){
-            .w = lanes_sum(sums.w),
-            .wu = lanes_sum(sums.wu),
-            .wv = lanes_sum(sums.wv),
-            .wuu = lanes_sum(sums.wuu),
-            .wuv = lanes_sum(sums.wuv),
-            .wvv = lanes_sum(sums.wvv),
-            .r = lanes_sum(sums.r),
-            .g = lanes_sum(sums.g),
-            .b = lanes_sum(sums.b),
-        };
+        float *record = (float *)&blend->records[blend->list_slot[entry]];
+        lanes_sum8(record, sums.w, sums.wu, sums.wv, sums.wuu, sums.wuv, sums.wvv, sums.r, sums.g);
+        record[8] = lanes_sum(sums.b);
     }
 }
 

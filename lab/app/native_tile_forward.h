@@ -15,7 +15,7 @@ typedef struct {
 static inline void blend_bits(float alpha_max, const uint32_t *words, const ScreenSplat *staged, int first,
                               const float *x, const float *y, ForwardState *state) {
     ForwardState s = *state;
-    for (int word = 0; word < WORDS; word++)
+    for (int word = 0; word < WORDS && lane_mask_any(lanes_ge(s.t, lanes_all(TRANSMITTANCE_STOP))); word++)
         for (uint32_t bits = words[TILE_BLOCKS * word]; bits;) {
             const int i = 32 * word + __builtin_clz(bits);
             bits ^= 0x80000000u >> (i & 31);
