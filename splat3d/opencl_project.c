@@ -44,8 +44,9 @@ bool opencl_project_forward(OpenclProject *project, const FrameRecord *frame, co
 }
 
 bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, const DeviceGaussians *model,
-                             SplatRecords records, DeviceGaussians *gradient, GpuBuffer *gradient_px, GpuBuffer *seen) {
-    const bool has_statistics = gradient_px && seen;
+                             SplatRecords records, DeviceGaussians *gradient, GpuBuffer *gradient_ndc,
+                             GpuBuffer *seen) {
+    const bool has_statistics = gradient_ndc && seen;
     return gpu_launch(
         project->backward, ((GpuRange){.width = (size_t)frame->splat_count, .group_width = GROUP_SIZE}),
         gpu_record_arg(frame, sizeof *frame), field_arg(model, FIELD_MEAN), field_arg(model, FIELD_LOG_SCALE),
@@ -55,6 +56,6 @@ bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, c
         gpu_buffer_arg(records.records), field_arg(gradient, FIELD_MEAN), field_arg(gradient, FIELD_LOG_SCALE),
         field_arg(gradient, FIELD_QUAT), field_arg(gradient, FIELD_OPACITY_LOGIT), field_arg(gradient, FIELD_SH0),
         field_arg(gradient, FIELD_SH1), field_arg(gradient, FIELD_SH2), field_arg(gradient, FIELD_SH3),
-        gpu_int_arg(has_statistics), gpu_buffer_arg(has_statistics ? gradient_px : project->depth),
+        gpu_int_arg(has_statistics), gpu_buffer_arg(has_statistics ? gradient_ndc : project->depth),
         gpu_buffer_arg(has_statistics ? seen : project->box));
 }

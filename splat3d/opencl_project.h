@@ -26,8 +26,8 @@ typedef struct {
     GpuBuffer *records; // (P) PairGradient
 } SplatRecords;
 
-// Enqueues; writes *gradient, and adds to gradient_px (N floats) and seen (N ints) unless they are NULL.
+// Enqueues; writes *gradient, and adds to gradient_ndc (N floats) and seen (N ints) unless they are NULL.
 bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, const DeviceGaussians *model,
-                             SplatRecords records, DeviceGaussians *gradient, GpuBuffer *gradient_px, GpuBuffer *seen);
+                             SplatRecords records, DeviceGaussians *gradient, GpuBuffer *gradient_ndc, GpuBuffer *seen);
 
 #endif

@@ -45,7 +45,7 @@ bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGa
     gpu_stage(r->gpu, "project_backward");
     const SplatRecords records = {r->binning.offset, r->binning.mask, r->blend.records};
     return opencl_project_backward(&r->project, &r->frame, model, records, gradient,
-                                   statistics ? statistics->gradient_px : NULL, statistics ? statistics->seen : NULL);
+                                   statistics ? statistics->gradient_ndc : NULL, statistics ? statistics->seen : NULL);
 }
 
 DevicePicture opencl_picture(OpenclRasterizer *r) {

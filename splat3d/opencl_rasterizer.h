@@ -10,11 +10,10 @@
 #include "splat3d/device_gaussians.h"
 #include "splat3d/rasterizer.h"
 
-// What density control needs to know of each splat, summed over steps (RECIPE: mean over the views that see it).
+// What density control needs to know of each splat, summed over steps; it divides one by the other.
 typedef struct {
-    GpuBuffer *
-        gradient_px; // (N) floats: sum of |dL/d mean2d| in NDC units (pixel gradient x half the width, half the height)
-    GpuBuffer *seen; // (N) ints: how many views saw it
+    GpuBuffer *gradient_ndc; // (N) floats: sum of |dL/d mean2d|, x in units of half the width, y of half the height
+    GpuBuffer *seen;         // (N) ints: how many views saw it
 } DensityStatistics;
 
 typedef enum { BLEND_AUTO, BLEND_CPU, BLEND_GPU } BlendKernels; // AUTO: by the device's type

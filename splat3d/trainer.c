@@ -63,7 +63,7 @@ static bool create_device_side(Trainer *t, BlendKernels blend) {
            device_gaussians_create(t->gpu, "gradient", 0, degree, &t->gradient) &&
            device_gaussians_create(t->gpu, "first moment", 0, degree, &t->m) &&
            device_gaussians_create(t->gpu, "second moment", 0, degree, &t->v) &&
-           gpu_buffer_create(t->gpu, "density gradient", sizeof(float), &t->statistics.gradient_px) &&
+           gpu_buffer_create(t->gpu, "density gradient", sizeof(float), &t->statistics.gradient_ndc) &&
            gpu_buffer_create(t->gpu, "density views", sizeof(int), &t->statistics.seen);
 }
 
@@ -102,7 +102,7 @@ void trainer_destroy(Trainer *t) {
     mem_free(t->photos);
     mem_free(t->view_order);
     mem_free(t->id);
-    gpu_buffer_destroy(t->statistics.gradient_px);
+    gpu_buffer_destroy(t->statistics.gradient_ndc);
     gpu_buffer_destroy(t->statistics.seen);
     device_gaussians_destroy(&t->model);
     device_gaussians_destroy(&t->gradient);
@@ -134,7 +134,7 @@ bool trainer_get_state(const Trainer *t, TrainingState *state) {
     if (n) memcpy(s.id, t->id, n * sizeof *s.id);
     bool done = device_gaussians_read(&t->model, &s.model) && device_gaussians_read(&t->m, &s.m) &&
                 device_gaussians_read(&t->v, &s.v) &&
-                gpu_buffer_read(t->statistics.gradient_px, s.gradient_sum, n * sizeof *s.gradient_sum) &&
+                gpu_buffer_read(t->statistics.gradient_ndc, s.gradient_sum, n * sizeof *s.gradient_sum) &&
                 gpu_buffer_read(t->statistics.seen, s.seen, n * sizeof *s.seen);
     if (done)
         *state = s;
@@ -149,9 +149,9 @@ bool trainer_set_state(Trainer *t, const TrainingState *s) {
         return fail("the state has SH degree %d, the options say %d", s->model.sh_degree, t->options.sh_degree);
     bool done = device_gaussians_write(&t->model, &s->model) && device_gaussians_write(&t->m, &s->m) &&
                 device_gaussians_write(&t->v, &s->v) && device_gaussians_resize(&t->gradient, s->model.count) &&
-                gpu_buffer_reserve(t->statistics.gradient_px, n * sizeof *s->gradient_sum) &&
+                gpu_buffer_reserve(t->statistics.gradient_ndc, n * sizeof *s->gradient_sum) &&
                 gpu_buffer_reserve(t->statistics.seen, n * sizeof *s->seen) &&
-                gpu_buffer_write(t->statistics.gradient_px, s->gradient_sum, n * sizeof *s->gradient_sum) &&
+                gpu_buffer_write(t->statistics.gradient_ndc, s->gradient_sum, n * sizeof *s->gradient_sum) &&
                 gpu_buffer_write(t->statistics.seen, s->seen, n * sizeof *s->seen);
     if (!done) return false;
     mem_free(t->id);

@@ -209,14 +209,14 @@ static void density_statistics_sum_screen_gradients_of_the_splats_in_view(void *
     DensityStatistics statistics;
     assert_true(device_gaussians_create(r->gpu, "model", 0, 3, &device) && device_gaussians_write(&device, &model));
     assert_true(device_gaussians_create(r->gpu, "gradient", n, 3, &gradient));
-    assert_true(gpu_buffer_create(r->gpu, "sum", (size_t)n * sizeof(float), &statistics.gradient_px));
+    assert_true(gpu_buffer_create(r->gpu, "sum", (size_t)n * sizeof(float), &statistics.gradient_ndc));
     assert_true(gpu_buffer_create(r->gpu, "seen", (size_t)n * sizeof(int), &statistics.seen));
     backward_on_device(r->shape[0], &device, &gradient, &camera, &d_rgb, &statistics);
     backward_on_device(r->shape[1], &device, &gradient, &camera, &d_rgb, &statistics);
 
     float *sum = mem_alloc((size_t)n, sizeof *sum), *expected = mem_alloc((size_t)n, sizeof *expected);
     int *seen = mem_alloc((size_t)n, sizeof *seen), visible = 0;
-    assert_true(gpu_buffer_read(statistics.gradient_px, sum, (size_t)n * sizeof *sum));
+    assert_true(gpu_buffer_read(statistics.gradient_ndc, sum, (size_t)n * sizeof *sum));
     assert_true(gpu_buffer_read(statistics.seen, seen, (size_t)n * sizeof *seen));
     for (int i = 0; i < n; i++) {
         assert_int_equal(seen[i], splats[i].visible ? 2 : 0);
@@ -228,7 +228,7 @@ static void density_statistics_sum_screen_gradients_of_the_splats_in_view(void *
 
     mem_free(sum), mem_free(expected), mem_free(seen);
     mem_free(splats), mem_free(d_splats), mem_free(d_rgb_double);
-    gpu_buffer_destroy(statistics.gradient_px), gpu_buffer_destroy(statistics.seen);
+    gpu_buffer_destroy(statistics.gradient_ndc), gpu_buffer_destroy(statistics.seen);
     device_gaussians_destroy(&device), device_gaussians_destroy(&gradient);
     gaussiansd_destroy(&exact), gaussians_destroy(&model), imagef_destroy(&d_rgb);
 }
