@@ -42,16 +42,28 @@ static bool check_keys(const json_t *object, const char *where, const char *cons
     return true;
 }
 
-static bool load_blob(const json_t *object, const char *where, Blob *blob) {
+static bool load_field(const json_t *object, int field, const char *where, Blob *blob) {
+    double *values = (double *)((char *)blob + FIELDS[field].offset);
+    if (FIELDS[field].count == 1) return json_get_number(object, FIELDS[field].key, where, values);
+    return json_get_numbers(object, FIELDS[field].key, where, values, FIELDS[field].count);
+}
+
+static bool check_blob_keys(const json_t *object, const char *where) {
     const char *keys[FIELD_COUNT];
-    for (int i = 0; i < FIELD_COUNT; i++) {
-        double *values = (double *)((char *)blob + FIELDS[i].offset);
-        keys[i] = FIELDS[i].key;
-        bool good = FIELDS[i].count == 1 ? json_get_number(object, keys[i], where, values)
-                                         : json_get_numbers(object, keys[i], where, values, FIELDS[i].count);
-        if (!good) return false;
-    }
+    for (int i = 0; i < FIELD_COUNT; i++) keys[i] = FIELDS[i].key;
     return check_keys(object, where, keys, FIELD_COUNT);
+}
+
+static bool load_blob(const json_t *object, const char *where, Blob *blob) {
+    for (int i = 0; i < FIELD_COUNT; i++)
+        if (!load_field(object, i, where, blob)) return false;
+    return check_blob_keys(object, where);
+}
+
+bool blob_change_from_json(const json_t *object, const char *where, Blob *blob) {
+    for (int i = 0; i < FIELD_COUNT; i++)
+        if (json_has(object, FIELDS[i].key) && !load_field(object, i, where, blob)) return false;
+    return check_blob_keys(object, where);
 }
 
 static bool load_side(const json_t *root, const char *key, const char *path, int *side) {
@@ -84,13 +96,19 @@ static bool load_scene(const json_t *root, const char *path, Scene2d *scene) {
            check_keys(root, path, SCENE_KEYS, SCENE_KEY_COUNT) && scene2d_check(scene, path);
 }
 
+bool scene2d_from_json(const json_t *root, const char *where, Scene2d *scene) {
+    *scene = (Scene2d){0};
+    bool good = load_scene(root, where, scene);
+    if (!good) scene2d_destroy(scene);
+    return good;
+}
+
 bool scene2d_load(const char *path, Scene2d *scene) {
     json_t *root;
     *scene = (Scene2d){0};
     if (!json_read(path, &root)) return false;
-    bool good = load_scene(root, path, scene);
+    bool good = scene2d_from_json(root, path, scene);
     json_decref(root);
-    if (!good) scene2d_destroy(scene);
     return good;
 }
 

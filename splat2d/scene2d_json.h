@@ -10,8 +10,15 @@
 
 #include "splat2d/scene2d.h"
 
+#include <jansson.h>
+
 // On failure *scene is empty and the message names file, blob (counted from 0) and field.
 bool scene2d_load(const char *path, Scene2d *scene);
+
+// The same of a document in memory; `where` begins the messages. And what of a blob's keys the object has, into *blob:
+// the others stay as they are.
+bool scene2d_from_json(const json_t *root, const char *where, Scene2d *scene);
+bool blob_change_from_json(const json_t *object, const char *where, Blob *blob);
 
 // Refuses to write what could not be read back.
 bool scene2d_save(const char *path, const Scene2d *scene);

@@ -26,7 +26,6 @@ struct Screen {
     int lively;     // frames that are drawn without waiting
     int zoom;       // steps
     bool quit;
-    char *shot; // where the current frame is to be written, or NULL
     double began_s, work_ms;
 };
 
@@ -52,7 +51,6 @@ void screen_close(Screen *screen) {
     if (!screen) return;
     gui_close();
     window_destroy(screen->window);
-    mem_free(screen->shot);
     mem_free(screen);
 }
 
@@ -94,17 +92,18 @@ bool screen_begin(Screen *screen, bool is_moving) {
     return true;
 }
 
-static bool write_frame(Screen *screen, const char *path) {
+bool screen_read(Screen *screen, Image8 *image) {
+    if (screen->window) return window_read(screen->window, image);
+    *image = image8_create(screen->options.size[0], screen->options.size[1], 3);
+    for (int i = 0; i < image->width * image->height * 3; i++)
+        image->bytes[i] = (uint8_t)lroundf(255 * BACKDROP[i % 3]);
+    gui_frame_paint(image);
+    return true;
+}
+
+bool screen_save(Screen *screen, const char *path) {
     Image8 image = {0};
-    if (screen->window) {
-        if (!window_read(screen->window, &image)) return false;
-    } else {
-        image = image8_create(screen->options.size[0], screen->options.size[1], 3);
-        for (int i = 0; i < image.width * image.height * 3; i++)
-            image.bytes[i] = (uint8_t)lroundf(255 * BACKDROP[i % 3]);
-        gui_frame_paint(&image);
-    }
-    bool good = image_save8(path, &image);
+    bool good = screen_read(screen, &image) && image_save8(path, &image);
     image8_destroy(&image);
     return good;
 }
@@ -113,16 +112,16 @@ bool screen_end(Screen *screen) {
     bool good = true;
     gui_frame_end();
     screen->frame++;
-    if (screen->shot) good = write_frame(screen, screen->shot);
-    mem_free(screen->shot);
-    screen->shot = NULL;
     bool is_last = screen->frame == screen->options.frames;
-    if (good && is_last && screen->options.screenshot && screen->options.screenshot[0])
-        good = write_frame(screen, screen->options.screenshot);
+    if (is_last && screen->options.screenshot && screen->options.screenshot[0])
+        good = screen_save(screen, screen->options.screenshot);
     double work_ms = 1e3 * (clock_seconds() - screen->began_s);
     screen->work_ms = screen->work_ms > 0 ? 0.9 * screen->work_ms + 0.1 * work_ms : work_ms;
-    if (screen->window) window_show(screen->window);
     return good;
+}
+
+void screen_show(Screen *screen) {
+    if (screen->window) window_show(screen->window);
 }
 
 void screen_zoom(Screen *screen, int steps) { screen->zoom = steps == 0 ? 0 : screen->zoom + steps; }
@@ -132,8 +131,3 @@ void screen_toggle_full(Screen *screen) {
 }
 
 void screen_quit(Screen *screen) { screen->quit = true; }
-
-void screen_shoot(Screen *screen, const char *path) {
-    mem_free(screen->shot);
-    screen->shot = mem_text(path);
-}

@@ -4,6 +4,7 @@
 //     while (screen_begin(screen, false)) {
 //         ... gui.h ...
 //         if (!screen_end(screen)) break;
+//         screen_show(screen);
 //     }
 //     screen_close(screen);
 #ifndef SPLATLAB_LAB_APP_SCREEN_H
@@ -30,7 +31,8 @@ void screen_close(Screen *screen); // accepts NULL
 // Begins the next frame; false when the person closed the window or all frames were shown. A window without events waits a
 // moment unless something moves by itself (is_moving).
 bool screen_begin(Screen *screen, bool is_moving);
-bool screen_end(Screen *screen); // shows the frame; false when the screenshot could not be written
+bool screen_end(Screen *screen);  // completes the frame; false when the screenshot could not be written
+void screen_show(Screen *screen); // it appears
 
 bool screen_is_window(const Screen *screen);
 double screen_work_ms(const Screen *screen); // from begin to shown, mean of the last frames, without waiting
@@ -39,7 +41,8 @@ void screen_zoom(Screen *screen,
 void screen_toggle_full(Screen *screen);
 void screen_quit(Screen *screen); // the next screen_begin() returns false
 
-// Writes the frame that is being drawn to the path as soon as it is complete.
-void screen_shoot(Screen *screen, const char *path);
+// The frame that was completed and is not yet shown, px; *image owned by the caller. Write it: screen_save().
+bool screen_read(Screen *screen, Image8 *image);
+bool screen_save(Screen *screen, const char *path);
 
 #endif

@@ -11,7 +11,7 @@
 #include <string.h>
 
 // Ems of the columns and rows of the layout.
-static const double PANEL_EMS = 24, PIXEL_EMS = 14.5;
+static const double PANEL_EMS = 24, PIXEL_EMS = 14.5, DEMO_EMS = 7.4;
 static const double NOTE_S = 4;
 
 void widget_begin(Widget *widget, Screen *screen, Scene2d scene, const char *path) {
@@ -42,6 +42,10 @@ void widget_end(Widget *widget) {
     mem_free(widget->maps.visits);
     mem_free(widget->walk);
     mem_free(widget->places);
+    trap_page_destroy(widget->trap);
+    scene2d_destroy(&widget->compared);
+    for (int i = 0; i < widget->film_count; i++) image8_destroy(&widget->film[i]);
+    mem_free(widget->film);
 }
 
 void widget_set_scene(Widget *widget, Scene2d scene) {
@@ -74,16 +78,56 @@ static void show_note(Widget *widget, GuiRect canvas) {
     gui_panel_end();
 }
 
+void widget_show_page(Widget *widget, WidgetPage page) {
+    if (page == PAGE_TRAP && !widget->trap) widget->trap = trap_page_create();
+    widget->page = page;
+    widget->drag.grip = GRIP_NONE;
+}
+
+static void show_blobs(Widget *widget, GuiRect stage, GuiRect panel) {
+    double pixel = fmin(PIXEL_EMS * gui_em(), stage.height / 2);
+    GuiRect canvas = {stage.x, stage.y, stage.width, stage.height - pixel};
+    widget_canvas(widget, canvas);
+    widget_panel(widget, panel);
+    widget_pixel(widget, (GuiRect){stage.x, stage.y + canvas.height, stage.width, pixel});
+    show_note(widget, canvas);
+}
+
+static void show_trap(Widget *widget, GuiRect stage, GuiRect panel) {
+    gui_panel_begin("panel", panel, PANEL, 0.9);
+    widget_page_choice(widget);
+    trap_page_panel(widget->trap, panel);
+    gui_panel_end();
+    trap_page_stage(widget->trap, stage, 1);
+    show_note(widget, stage);
+}
+
 bool widget_frame(Widget *widget) {
     GuiRect whole = gui_screen();
-    double panel = fmin(PANEL_EMS * gui_em(), whole.width / 2), pixel = fmin(PIXEL_EMS * gui_em(), whole.height / 2);
-    GuiRect canvas = {0, 0, whole.width - panel, whole.height - pixel};
+    double panel = fmin(PANEL_EMS * gui_em(), whole.width / 2);
+    double strip = widget->demo ? DEMO_EMS * gui_em() : 0;
+    GuiRect stage = {0, strip, whole.width - panel, whole.height - strip};
+    GuiRect side = {stage.width, 0, panel, whole.height};
+    if (widget->demo) widget_demo_keys(widget);
     widget_keys(widget);
-    widget_canvas(widget, canvas);
-    widget_panel(widget, (GuiRect){canvas.width, 0, panel, whole.height});
-    widget_pixel(widget, (GuiRect){0, canvas.height, canvas.width, pixel});
-    show_note(widget, canvas);
+    WidgetPage page = widget->page; // a button may turn it within the frame
+    if (page == PAGE_BLOBS)
+        show_blobs(widget, stage, side);
+    else
+        show_trap(widget, stage, side);
+    if (widget->demo) widget_demo_strip(widget, (GuiRect){0, 0, stage.width, strip});
     if (widget->shows_help) widget_help(widget);
     if (!gui_is_holding()) history_record(&widget->history, &widget->scene, widget->active);
     return widget_write_state(widget) && widget_write_places(widget);
+}
+
+bool widget_loop(Widget *widget) {
+    bool good = true;
+    while (good && screen_begin(widget->screen, widget->trap && widget->trap->is_running)) {
+        good = widget_frame(widget);
+        good = screen_end(widget->screen) && good;
+        widget_keep_frame(widget);
+        screen_show(widget->screen);
+    }
+    return good;
 }

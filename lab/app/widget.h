@@ -6,9 +6,11 @@
 #define SPLATLAB_LAB_APP_WIDGET_H
 
 #include "lab/app/canvas2d.h"
+#include "lab/app/demo.h"
 #include "lab/app/gui.h"
 #include "lab/app/history.h"
 #include "lab/app/screen.h"
+#include "lab/app/trap_page.h"
 #include "splat2d/pixel_walk.h"
 
 #include <stdbool.h>
@@ -16,10 +18,15 @@
 // What the canvas shows of each pixel.
 typedef enum { LAYER_COLOUR, LAYER_TRANSMITTANCE, LAYER_VISITS } WidgetLayer;
 
-enum { WIDGET_PATH_BYTES = 1024 };
+// Which page is shown: the blobs, or the PSD trap.
+typedef enum { PAGE_BLOBS, PAGE_TRAP } WidgetPage;
+
+enum { WIDGET_PATH_BYTES = 1024, FILM_FRAMES_MAX = 240 };
 
 typedef struct {
     Screen *screen; // borrowed
+    WidgetPage page;
+    TrapPage *trap; // owned, made when its page is first shown
     Scene2d scene;
     Scene2d first; // where "reset" goes back to
     int active;    // the chosen blob, -1: none
@@ -57,6 +64,15 @@ typedef struct {
     bool note_is_bad;
     double note_until_s;
     bool shows_help;
+
+    // A lecture.
+    const Demo *demo; // borrowed; NULL: none
+    int step;         // of the demo
+    Scene2d compared; // for which psnr was computed
+    double psnr;      // dB, of the scene against the step that the demo compares to
+    bool is_filming;  // each frame is kept for a GIF
+    Image8 *film;     // (film_count), owned
+    int film_count;
 } Widget;
 
 // scene: becomes the widget's own.
@@ -65,6 +81,9 @@ void widget_end(Widget *widget); // accepts a zeroed one
 
 // One frame; false with a message when a file that a script asked for could not be written.
 bool widget_frame(Widget *widget);
+
+// Frames until the person ends it, or all that the screen was asked for are shown.
+bool widget_loop(Widget *widget);
 
 // Replaces the scene, as one step of the history.
 void widget_set_scene(Widget *widget, Scene2d scene);
@@ -76,10 +95,14 @@ Blob *widget_active(Widget *widget); // NULL when none is chosen
 void widget_keys(Widget *widget);                           // widget_keys.c
 void widget_canvas(Widget *widget, GuiRect place);          // widget_canvas.c: picture, handles, mouse
 void widget_picture(Widget *widget, int width, int height); // widget_picture.c: rasterizes when stale
+void widget_heat(double t, double rgb[3]);                  // of LAYER_VISITS: t is the part of all blobs
 void widget_panel(Widget *widget, GuiRect place);           // widget_panel.c: sliders and switches
+void widget_page_choice(Widget *widget);                    // widget_panel.c: which page
 void widget_maths(const Blob *blob);                        // widget_maths.c: Sigma and what follows from it
 void widget_pixel(Widget *widget, GuiRect place);           // widget_pixel.c: one pixel's walk, and T along it
 void widget_help(Widget *widget);                           // widget_help.c: the overlay of F1
+void widget_demo_strip(Widget *widget, GuiRect place);      // widget_demo.c: caption, question, steps
+void widget_demo_keys(Widget *widget);                      // widget_demo.c: left, right, R, G
 
 // ---- actions that buttons and keys share: widget_edit.c ----
 
@@ -91,6 +114,12 @@ void widget_undo(Widget *widget);
 void widget_redo(Widget *widget);
 void widget_raise(Widget *widget, int steps); // towards the front by that many ranks; negative: to the back
 void widget_select(Widget *widget, int index);
+
+// ---- demos: widget_demo.c ----
+
+void widget_show_step(Widget *widget, int step); // as the demo's file has it, whatever was changed by hand before
+void widget_show_page(Widget *widget, WidgetPage page);
+void widget_keep_frame(Widget *widget); // for the film, when there is one
 
 // ---- files: widget_files.c ----
 

@@ -151,6 +151,24 @@ static void draw_times(const Widget *widget, GuiRect place) {
                   0xffffff90, "%s", hint);
 }
 
+// What the colours of the heat map mean.
+static void draw_legend(const Widget *widget, GuiRect place) {
+    enum { TONES = 48 };
+    if (widget->layer != LAYER_VISITS) return;
+    double em = gui_em(), x = place.x + 0.9 * em, y = place.y + place.height - 1.9 * em, width = 0.22 * em;
+    gui_draw_text(GUI_SMALL, x, y - 1.2 * em, 0xffffffc0, "blobs read");
+    for (int i = 0; i < TONES; i++) {
+        double rgb[3];
+        widget_heat((double)i / (TONES - 1), rgb);
+        gui_draw_rect((GuiRect){x + i * width, y, width + 1, 0.6 * em}, colour_of(rgb, 1), 0);
+    }
+    gui_draw_text(GUI_SMALL, x, y + 0.75 * em, 0xffffffc0, "0");
+    char most[16];
+    snprintf(most, sizeof most, "%d", widget->scene.count);
+    gui_draw_text(GUI_SMALL, x + TONES * width - gui_text_width(GUI_SMALL, most), y + 0.75 * em, 0xffffffc0, "%s",
+                  most);
+}
+
 void widget_canvas(Widget *widget, GuiRect place) {
     gui_panel_begin("canvas panel", place, PANEL_DEEP, 0);
     if (!widget->is_placed) {
@@ -165,6 +183,7 @@ void widget_canvas(Widget *widget, GuiRect place) {
     widget_picture(widget, width, height);
     gui_draw_picture(0, (GuiRect){place.x, place.y, width, height});
     draw_overlays(widget, area);
+    draw_legend(widget, place);
     draw_times(widget, place);
     gui_panel_end();
 }

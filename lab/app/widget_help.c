@@ -22,6 +22,7 @@ static const struct {
     {"B", "background as the lesson's script adds it, or right"},
     {"G  H  L", "discs; outlines; colour, T or blobs read"},
     {"P", "hold the pixel that is explained"},
+    {"M", "the other page: the PSD trap (Space runs it)"},
     {"Ctrl S  Ctrl O  Ctrl E", "save, load, export as PNG"},
     {"Ctrl +  Ctrl −  Ctrl 0", "size of the text"},
     {"F11, F1, Ctrl Q", "full screen, this page, quit"},

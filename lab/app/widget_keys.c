@@ -36,7 +36,7 @@ static void shape_keys(Widget *widget, Blob *blob) {
     if (sigma_y) blob->sigma_y = scaled(blob->sigma_y, sigma_y);
     if (theta) blob->theta_rad = angle_wrap(blob->theta_rad + theta * TURN_RAD);
     blob->opacity = clamp(blob->opacity + steps_of(GLFW_KEY_O) * OPACITY_STEP, 0, 1);
-    blob->mean[0] += moved_by(GLFW_KEY_RIGHT) - moved_by(GLFW_KEY_LEFT);
+    if (!widget->demo) blob->mean[0] += moved_by(GLFW_KEY_RIGHT) - moved_by(GLFW_KEY_LEFT); // there they step
     blob->mean[1] += moved_by(GLFW_KEY_DOWN) - moved_by(GLFW_KEY_UP);
     for (int c = 0; c < 2; c++) blob->mean[c] = clamp(blob->mean[c], -SCENE2D_MEAN_MAX, SCENE2D_MEAN_MAX);
     if (memcmp(&before, blob, sizeof before) != 0) widget->is_stale = true;
@@ -58,7 +58,8 @@ static void blob_keys(Widget *widget) {
 
 static void look_keys(Widget *widget) {
     const Canvas2d *c = &widget->canvas;
-    int unattenuated = gui_key(GLFW_KEY_B, GUI_PLAIN), discs = gui_key(GLFW_KEY_G, GUI_PLAIN);
+    int unattenuated = gui_key(GLFW_KEY_B, GUI_PLAIN);
+    int discs = widget->demo ? 0 : gui_key(GLFW_KEY_G, GUI_PLAIN); // there it films
     int layers = gui_key(GLFW_KEY_L, GUI_PLAIN), zooms = pluses(GUI_PLAIN) - minuses(GUI_PLAIN);
     int fits = gui_key(GLFW_KEY_0, GUI_PLAIN) + gui_key(GLFW_KEY_HOME, GUI_PLAIN);
     if (unattenuated % 2) widget->settings.background_unattenuated = !widget->settings.background_unattenuated;
@@ -91,6 +92,12 @@ void widget_keys(Widget *widget) {
     if (gui_key(GLFW_KEY_ESCAPE, GUI_PLAIN)) widget->shows_help = false;
     if (widget->drag.grip != GRIP_NONE) return; // the blob under the mouse must not change
     ctrl_keys(widget);
+    if (gui_key(GLFW_KEY_M, GUI_PLAIN) % 2)
+        widget_show_page(widget, widget->page == PAGE_BLOBS ? PAGE_TRAP : PAGE_BLOBS);
+    if (widget->page == PAGE_TRAP) {
+        if (gui_key(GLFW_KEY_SPACE, GUI_PLAIN) % 2) widget->trap->is_running = !widget->trap->is_running;
+        return;
+    }
     blob_keys(widget);
     look_keys(widget);
 }

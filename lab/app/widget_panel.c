@@ -16,7 +16,7 @@ static void heading(const char *text) {
 
 // A row of coloured discs, in depth order; a click chooses.
 static void blob_row(Widget *widget) {
-    enum { SHOWN_MAX = 12 };
+    enum { SHOWN_MAX = 10 };
     double em = gui_em();
     int count = widget->scene.count < SHOWN_MAX ? widget->scene.count : SHOWN_MAX;
     for (int i = 0; i < count; i++) {
@@ -154,9 +154,15 @@ static void files(Widget *widget) {
     gui_hint("Ctrl E: the canvas as a picture, beside the scene's file");
 }
 
+void widget_page_choice(Widget *widget) {
+    static const char *const pages[] = {"Gaussians", "PSD trap"};
+    int page = (int)widget->page;
+    if (gui_choice("page", &page, pages, 2)) widget_show_page(widget, (WidgetPage)page);
+}
+
 void widget_panel(Widget *widget, GuiRect place) {
     gui_panel_begin("panel", place, PANEL, 0.9);
-    gui_text(GUI_TITLE, INK, "Gaussians in the plane");
+    widget_page_choice(widget);
     blob_row(widget);
     Blob *blob = widget_active(widget);
     if (blob) {

@@ -23,10 +23,11 @@ static void fit_buffers(Widget *widget, int width, int height) {
 }
 
 // Dark blue over violet and orange to pale yellow, t in [0, 1]: ordered in brightness, so that grey projectors show it too.
-static void heat(double t, double rgb[3]) {
+// Few are told apart better than many.
+void widget_heat(double t, double rgb[3]) {
     static const double stops[5][3] = {
         {0.04, 0.05, 0.12}, {0.29, 0.10, 0.42}, {0.72, 0.22, 0.33}, {0.96, 0.55, 0.20}, {0.99, 0.95, 0.72}};
-    double place = 4 * fmin(1, fmax(0, t));
+    double place = 4 * sqrt(fmin(1, fmax(0, t)));
     int i = place >= 4 ? 3 : (int)place;
     for (int c = 0; c < 3; c++) rgb[c] = stops[i][c] + (place - i) * (stops[i + 1][c] - stops[i][c]);
 }
@@ -43,7 +44,7 @@ static void row_to_bytes(void *context, int row) {
         if (widget->layer == LAYER_TRANSMITTANCE)
             rgb[0] = rgb[1] = rgb[2] = widget->maps.transmittance[first + x];
         else if (widget->layer == LAYER_VISITS)
-            heat((double)widget->maps.visits[first + x] / most, rgb);
+            widget_heat((double)widget->maps.visits[first + x] / most, rgb);
         else
             for (int c = 0; c < 3; c++) rgb[c] = widget->picture.values[3 * (first + x) + c];
         for (int c = 0; c < 3; c++) bytes[3 * x + c] = byte_of(rgb[c]);

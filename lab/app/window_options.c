@@ -1,0 +1,56 @@
+// window_options.c - the shared part of the option tables of commands with a window.
+#include "lab/app/window_options.h"
+
+#include "lab/app/output_path.h"
+#include "lab/base/fail.h"
+
+#include <string.h>
+
+static const OptionField FIELDS[WINDOW_OPTION_COUNT] = {
+    {.name = "size",
+     .type = OPTION_SIZE,
+     .offset = offsetof(WindowOptions, size),
+     .low = 320,
+     .high = 16384,
+     .unit = "px",
+     .help = "of the window; 0x0: chosen for the display"},
+    {.name = "frames",
+     .type = OPTION_INT,
+     .offset = offsetof(WindowOptions, frames),
+     .low = 0,
+     .high = 1e9,
+     .unit = "frames",
+     .help = "end after so many; 0: when the window is closed",
+     .section = "For scripts"},
+    {.name = "screenshot",
+     .type = OPTION_TEXT,
+     .offset = offsetof(WindowOptions, screenshot),
+     .help = "a .png or .jpg of the last of --frames"},
+    {.name = "state-file",
+     .type = OPTION_TEXT,
+     .offset = offsetof(WindowOptions, state_file),
+     .help = "a .json file: the scene, written after each change"},
+    {.name = "places-file",
+     .type = OPTION_TEXT,
+     .offset = offsetof(WindowOptions, places_file),
+     .help = "a .json file: where each control is in the window, for scripts that click"},
+};
+
+void window_options_fields(size_t offset, OptionField fields[WINDOW_OPTION_COUNT]) {
+    memcpy(fields, FIELDS, sizeof FIELDS);
+    for (int i = 0; i < WINDOW_OPTION_COUNT; i++) fields[i].offset += offset;
+}
+
+bool window_options_check(const WindowOptions *o, const char *command) {
+    static const char *const pictures[] = {".png", ".jpg", NULL}, *const documents[] = {".json", NULL};
+    if (o->screenshot[0] && o->frames == 0)
+        return fail_usage("%s: --screenshot is taken of the last frame; say which with --frames N", command);
+    return (!o->screenshot[0] || output_path_check("screenshot", o->screenshot, pictures)) &&
+           (!o->state_file[0] || output_path_check("state-file", o->state_file, documents)) &&
+           (!o->places_file[0] || output_path_check("places-file", o->places_file, documents));
+}
+
+ScreenOptions window_options_screen(const WindowOptions *o, const char *title) {
+    return (ScreenOptions){
+        .title = title, .size = {o->size[0], o->size[1]}, .frames = o->frames, .screenshot = o->screenshot};
+}
