@@ -96,7 +96,7 @@ bool opencl_read_picture(OpenclRasterizer *r, Picture *picture) {
 
 // ---- the table of rasterizer.h ----
 
-// Puts a model of the host on the device; makes room for its gradient too.
+// Puts a model of the host on the device.
 static bool take_model(OpenclRasterizer *r, const Gaussians *model) {
     if (!r->model.field[FIELD_MEAN] || r->model.sh_degree != model->sh_degree) {
         device_gaussians_destroy(&r->model);
@@ -105,7 +105,7 @@ static bool take_model(OpenclRasterizer *r, const Gaussians *model) {
             !device_gaussians_create(r->gpu, "gradient", 0, model->sh_degree, &r->gradient))
             return false;
     }
-    return device_gaussians_write(&r->model, model) && device_gaussians_resize(&r->gradient, model->count);
+    return device_gaussians_write(&r->model, model);
 }
 
 static bool table_render(Rasterizer *self, const Gaussians *model, const Camera *camera, const RenderSettings *settings,
@@ -127,7 +127,10 @@ static bool write_d_rgb(OpenclRasterizer *r, const ImageF *d_rgb) {
     return gpu_buffer_unmap(r->blend.d_rgb);
 }
 
-static bool zero_gradient(DeviceGaussians *gradient) {
+// A gradient of the model on the device: zeros, which stay where the backward pass leaves fields alone.
+static bool begin_gradient(OpenclRasterizer *r) {
+    DeviceGaussians *gradient = &r->gradient;
+    if (!device_gaussians_resize(gradient, r->model.count)) return false;
     for (int id = 0; id < FIELD_COUNT; id++)
         if (gradient->field[id] && !gpu_buffer_zero(gradient->field[id])) return false;
     return true;
@@ -136,7 +139,7 @@ static bool zero_gradient(DeviceGaussians *gradient) {
 static bool table_backward(Rasterizer *self, const Gaussians *model, const Camera *camera,
                            const RenderSettings *settings, const ImageF *d_rgb, Gaussians *d_model) {
     OpenclRasterizer *r = (OpenclRasterizer *)self;
-    return take_model(r, model) && zero_gradient(&r->gradient) && opencl_render(r, &r->model, camera, settings) &&
+    return take_model(r, model) && begin_gradient(r) && opencl_render(r, &r->model, camera, settings) &&
            write_d_rgb(r, d_rgb) && opencl_backward(r, &r->model, &r->gradient, NULL) &&
            device_gaussians_read(&r->gradient, d_model);
 }

@@ -115,6 +115,7 @@ void trainer_destroy(Trainer *t) {
 }
 
 int trainer_steps_done(const Trainer *t) { return t->steps_done; }
+int trainer_splat_count(const Trainer *t) { return t->model.count; }
 double trainer_scene_extent(const Trainer *t) { return t->dataset->extent; }
 Rasterizer *trainer_rasterizer(Trainer *t) { return opencl_rasterizer_interface(t->rasterizer); }
 
@@ -146,7 +147,8 @@ bool trainer_get_state(const Trainer *t, TrainingState *state) {
 bool trainer_set_state(Trainer *t, const TrainingState *s) {
     size_t n = (size_t)s->model.count;
     if (s->model.sh_degree != t->options.sh_degree)
-        return fail("the state has SH degree %d, the options say %d", s->model.sh_degree, t->options.sh_degree);
+        return fail("the state has SH degree %d, the options say %d; put sh_degree of options.json back",
+                    s->model.sh_degree, t->options.sh_degree);
     bool done = device_gaussians_write(&t->model, &s->model) && device_gaussians_write(&t->m, &s->m) &&
                 device_gaussians_write(&t->v, &s->v) && device_gaussians_resize(&t->gradient, s->model.count) &&
                 gpu_buffer_reserve(t->statistics.gradient_ndc, n * sizeof *s->gradient_sum) &&
@@ -196,7 +198,8 @@ static bool descend(Trainer *t, int step, int view, StepReport *report) {
             "numbers are kept; try a smaller learning rate",
             step, t->views[view]->name, splat, t->id[splat], GAUSSIAN_FIELDS[field].name);
     if (!isfinite(report->loss.total))
-        return fail("step %d, view %s: the loss is not finite", step, t->views[view]->name);
+        return fail("step %d, view %s: the loss is not finite; try a smaller learning rate", step,
+                    t->views[view]->name);
     return true;
 }
 
@@ -213,13 +216,13 @@ static bool adapt(Trainer *t, int step, StepReport *report) {
         report->density =
             density_control(&t->options, step, t->dataset->extent, schedule_prunes_large(&t->options, step), &state);
     if (report->opacity_reset) density_reset_opacity(&t->options, &state);
-    bool done = trainer_set_state(t, &state);
+    bool done = state.model.count > 0; // else the trainer keeps what it had, so that there is a model to save
+    if (done)
+        done = trainer_set_state(t, &state);
+    else
+        fail("step %d: density control would remove every splat; lower --prune-opacity, or check the cameras", step);
     training_state_destroy(&state);
-    if (!done) return false;
-    if (t->model.count == 0)
-        return fail("step %d: density control has removed every splat; lower --prune-opacity, or check the cameras",
-                    step);
-    return true;
+    return done;
 }
 
 bool trainer_step(Trainer *t, StepReport *report) {

@@ -30,11 +30,12 @@ typedef struct {
     bool opacity_reset;
 } StepReport;
 
-// One step. Fails on a device error, and when a gradient or a parameter is no longer finite: the message names step, view, splat and field; the
-// model keeps that splat's last good numbers.
+// One step. Fails on a device error; when a gradient or a parameter is no longer finite: the message names step, view, splat and
+// field, and the model keeps that splat's last good numbers; and when density control would remove every splat, which it then does not.
 bool trainer_step(Trainer *trainer, StepReport *report);
 
 int trainer_steps_done(const Trainer *trainer);
+int trainer_splat_count(const Trainer *trainer);
 double trainer_scene_extent(const Trainer *trainer); // world units
 
 // Everything learned so far, to be written (training_state.h) or looked at; owned by the caller.
@@ -43,7 +44,8 @@ bool trainer_get_state(const Trainer *trainer, TrainingState *state);
 bool trainer_set_state(Trainer *trainer, const TrainingState *state);
 
 Rasterizer *trainer_rasterizer(Trainer *trainer); // of the trainer's device; for evaluation between two steps
-RenderSettings
-trainer_render_settings(const Trainer *trainer); // as the model would be shown now: full SH, the run's background
+
+// As the model would be shown now: full SH, the run's background (black where that is random).
+RenderSettings trainer_render_settings(const Trainer *trainer);
 
 #endif

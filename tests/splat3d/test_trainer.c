@@ -256,12 +256,35 @@ static void a_number_that_is_not_finite_stops_training_by_name(void **state) {
     dataset_destroy(&d);
 }
 
+static void density_control_that_would_leave_nothing_stops_with_the_model_it_had(void **state) {
+    (void)state;
+    TrainOptions o = small_options(10);
+    o.densify_from = 0;
+    o.densify_every = 2;
+    o.prune_opacity = 1;
+    Dataset d = make_dataset();
+    Trainer *trainer;
+    StepReport report;
+    TrainingState kept;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+    check(trainer_step(trainer, &report));
+    assert_false(trainer_step(trainer, &report));
+    assert_non_null(strstr(fail_text(), "step 2: density control would remove every splat"));
+    check(trainer_get_state(trainer, &kept));
+    assert_int_equal(kept.model.count, POINTS);
+    assert_int_equal(trainer_splat_count(trainer), POINTS);
+    training_state_destroy(&kept);
+    trainer_destroy(trainer);
+    dataset_destroy(&d);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_steps_lose_what_the_reference_loses),
         cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_does_not),
         cmocka_unit_test(an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one),
         cmocka_unit_test(a_number_that_is_not_finite_stops_training_by_name),
+        cmocka_unit_test(density_control_that_would_leave_nothing_stops_with_the_model_it_had),
     };
     return cmocka_run_group_tests_name("trainer", tests, open_device, close_device);
 }
