@@ -99,8 +99,8 @@ static void print_json(const Eval *eval) {
     const Evaluation *e = &eval->evaluation;
     json_t *views = json_array();
     for (int i = 0; i < e->count; i++)
-        json_array_append_new(views, json_pack("{ss* sf sf sf}", "name", e->views[i].name, "psnr", e->views[i].psnr,
-                                               "ssim", e->views[i].ssim, "psnr8", e->views[i].psnr8));
+        json_array_append_new(views, json_pack("{so sf sf sf}", "name", json_text(e->views[i].name), "psnr",
+                                               e->views[i].psnr, "ssim", e->views[i].ssim, "psnr8", e->views[i].psnr8));
     json_t *root = json_pack("{sf sf sf si so ss}", "psnr", e->psnr, "ssim", e->ssim, "psnr8", e->psnr8, "splats",
                              eval->model.count, "views", views, "protocol", EVALUATION_PROTOCOL);
     json_print(root);

@@ -102,7 +102,7 @@ static bool info_run(const char *path, const Options *o, json_t **facts) {
     if (good) {
         json_t *options = json_from_options(&TRAIN_OPTIONS, &source.options);
         json_object_set_new(*facts, "kind", json_string("run"));
-        json_object_set_new(*facts, "scene", json_string(source.options.scene));
+        json_object_set_new(*facts, "scene", json_text(source.options.scene));
         json_object_set_new(*facts, "options", options);
     }
     model_source_forget(&source);
@@ -142,7 +142,7 @@ static int cmd_info(int argc, char **argv) {
     }
     json_t *found = NULL;
     if (!find_facts(path, &options, &found)) return command_failed();
-    json_t *facts = json_pack("{ss*}", "path", path);
+    json_t *facts = json_pack("{so}", "path", json_text(path));
     json_object_update(facts, found);
     json_decref(found);
     if (options.json)

@@ -231,7 +231,7 @@ static bool write_picture(Job *job, const Camera *camera, const char *path) {
     if (kind == FRAME_DEPTH && !file_has_ending(path, ".exr")) frame_normalise_depth(&image);
     bool good = image_savef(path, &image);
     imagef_destroy(&image);
-    if (good) json_array_append_new(job->files, json_string(path));
+    if (good) json_array_append_new(job->files, json_text(path));
     if (good && !o->json) printf("%s\n", path);
     return good;
 }

@@ -17,7 +17,6 @@
 #include "splat3d/trainer.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -150,33 +149,62 @@ static bool save_all(const Run *run, bool with_model) {
     return done;
 }
 
-static bool score(const Run *run, Evaluation *evaluation) {
+static bool score(const Run *run, bool show_progress, Evaluation *evaluation) {
     TrainingState state;
     if (!trainer_get_state(run->trainer, &state)) return false;
     RenderSettings settings = trainer_render_settings(run->trainer);
-    bool done =
-        evaluate_model(trainer_rasterizer(run->trainer), &state.model, &run->dataset, &settings, false, evaluation);
+    bool done = evaluate_model(trainer_rasterizer(run->trainer), &state.model, &run->dataset, &settings, show_progress,
+                               evaluation);
     training_state_destroy(&state);
     return done;
 }
 
-// Scene and folder from the command line, or both from the run that is resumed.
-static bool find_scene(Run *run, const char *scene) {
+// Which views score() looks at: a single view is trained on, and there is no other.
+static const char *scored_views(const Run *run) {
+    return dataset_held_out_count(&run->dataset) ? "held-out" : "training-view";
+}
+
+// Scene and folder from the command line, or the folder of the run that is resumed.
+static bool name_run(Run *run, const char *scene) {
     Options *o = &run->options;
     if (o->resume[0]) {
         if (scene) return fail_usage("--resume takes the scene from its run; leave '%s' out", scene);
+        if (o->run[0]) return fail_usage("--resume writes to the folder of its run; leave --output %s out", o->run);
+        if (o->overwrite) return fail_usage("--resume goes on with a run, --overwrite begins a new one; want only one");
         run->folder = run_folder_name(o->resume);
-        return run_folder_load_options(&run->folder, &o->train);
+        return true;
     }
     if (!scene)
         return fail_usage("which scene? splatlab train SCENE -o RUN (a folder with images and cameras); `splatlab "
                           "scene studio -o DIR` makes one");
     if (!o->run[0]) return fail_usage("where to? splatlab train %s -o RUN (a folder for the result)", scene);
-    char *full = realpath(scene, NULL);
-    if (!full) return fail("there is no %s; a scene is a folder with images and cameras", scene);
-    snprintf(o->train.scene, sizeof o->train.scene, "%s", full);
-    free(full);
     run->folder = run_folder_name(o->run);
+    return run_folder_take_scene(scene, &o->train);
+}
+
+// The options of the run that is resumed. They stand in for the defaults and the command line is read again on top of them:
+// what it changes would not be the same run any more.
+static bool resume_options(Run *run, int argc, char **argv) {
+    Options own = run->options, asked;
+    if (!run_folder_load_options(&run->folder, &own.train)) return false;
+    asked = own;
+    OptionField fields[FIELDS_MAX];
+    OptionTable table = make_table(&own, fields);
+    const char *positional[1];
+    int count, exit_code;
+    command_line_parse(&CMD_TRAIN, &table, argc, argv, &asked, positional, 1, &count, &exit_code);
+    for (int i = 0; i < TRAIN_OPTIONS.count; i++) {
+        const OptionField *field = &TRAIN_OPTIONS.fields[i];
+        char has[OPTION_TEXT_BYTES], wants[OPTION_TEXT_BYTES];
+        option_text(field, &own.train, has, sizeof has);
+        option_text(field, &asked.train, wants, sizeof wants);
+        if (strcmp(has, wants) != 0)
+            return fail_usage(
+                "--%s %s: the run in %s was begun with %s, and --resume keeps to that; leave it out, or begin "
+                "a new run",
+                field->name, wants, run->folder.folder, has);
+    }
+    run->options.train = own.train;
     return true;
 }
 
@@ -204,20 +232,19 @@ static bool resume_state(Run *run) {
 }
 
 // Everything up to the first step. What can be refused is refused before long work starts.
-static bool run_open(Run *run, const char *scene) {
+static bool run_open(Run *run) {
     Options *o = &run->options;
+    bool is_new = !o->resume[0], is_random;
     float background[3];
-    bool is_random;
-    if (!find_scene(run, scene) || !background_parse(o->train.background, background, &is_random)) return false;
+    if (!background_parse(o->train.background, background, &is_random)) return false;
     if (!dataset_open(o->train.scene, o->train.downscale, &run->dataset)) return false;
-    if (!o->resume[0] && !run_folder_begin(&run->folder, o->overwrite)) return false;
-    if (!o->resume[0] && !run_folder_save_options(&run->folder, &o->train)) return false;
+    if (is_new && !run_folder_check(&run->folder, o->overwrite)) return false;
     if (o->kernels[0]) gpu_set_kernel_folder(o->kernels);
     if (!gpu_open(o->device, &run->gpu)) return false;
     say_scene(run);
     if (!dataset_load_images(&run->dataset)) return false;
     if (!trainer_create(run->gpu, (BlendKernels)o->blend, &o->train, &run->dataset, &run->trainer)) return false;
-    if (o->resume[0] && !resume_state(run)) return false;
+    if (!(is_new ? run_folder_begin(&run->folder, &o->train) : resume_state(run))) return false;
     run->first_step = trainer_steps_done(run->trainer);
     return metrics_log_open(run->folder.metrics, run->first_step, &run->log);
 }
@@ -236,10 +263,13 @@ static bool after_step(Run *run, const StepReport *report) {
     }
     if (due(report->step, o->eval_every) && report->step < o->train.iterations) {
         Evaluation evaluation;
-        if (!score(run, &evaluation)) return false;
-        log_info("step %d: held-out PSNR %.2f dB, SSIM %.4f, %d splats%s", report->step, evaluation.psnr,
+        const GpuStageTime *of_evaluation; // no step's
+        int count;
+        if (!score(run, false, &evaluation)) return false;
+        log_info("step %d: %s PSNR %.2f dB, SSIM %.4f, %d splats%s", report->step, scored_views(run), evaluation.psnr,
                  evaluation.ssim, report->splats, report->opacity_reset ? " (opacities were reset at this step)" : "");
-        bool done = metrics_log_evaluation(&run->log, report->step, &evaluation);
+        bool done = metrics_log_evaluation(&run->log, report->step, &evaluation) &&
+                    gpu_stage_times(run->gpu, &of_evaluation, &count);
         evaluation_destroy(&evaluation);
         if (!done) return false;
     }
@@ -279,22 +309,19 @@ static bool print_result(Run *run, bool interrupted) {
     double seconds = run_seconds(run);
     int done = trainer_steps_done(run->trainer), here = done - run->first_step;
     double ms = here ? 1e3 * (clock_seconds() - run->began_s) / here : 0;
-    if (!score(run, &e) || !file_sha256(run->folder.model, sha256)) return false;
-    TrainingState state;
-    if (!trainer_get_state(run->trainer, &state)) return false;
-    int splats = state.model.count;
-    training_state_destroy(&state);
+    if (!file_sha256(run->folder.model, sha256) || !score(run, true, &e)) return false;
+    int splats = trainer_splat_count(run->trainer);
     bool logged = metrics_log_evaluation(&run->log, done, &e);
     if (run->options.json) {
         json_t *root =
-            json_pack("{sf sf si si sf sf ss sI ss sb}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",
+            json_pack("{sf sf si si sf sf ss sI so sb}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",
                       done, "seconds", seconds, "ms_per_iteration", ms, "model_sha256", sha256, "peak_rss_bytes",
-                      (json_int_t)mem_peak_bytes(), "model", run->folder.model, "interrupted", interrupted);
+                      (json_int_t)mem_peak_bytes(), "model", json_text(run->folder.model), "interrupted", interrupted);
         json_print(root);
         json_decref(root);
     } else {
-        printf("%s: %d steps, %d splats, held-out PSNR %.2f dB, SSIM %.4f, %.0f s (%.1f ms a step)\n",
-               run->folder.model, done, splats, e.psnr, e.ssim, seconds, ms);
+        printf("%s: %d steps, %d splats, %s PSNR %.2f dB, SSIM %.4f, %.0f s (%.1f ms a step)\n", run->folder.model,
+               done, splats, scored_views(run), e.psnr, e.ssim, seconds, ms);
     }
     evaluation_destroy(&e);
     return logged;
@@ -313,9 +340,9 @@ static bool rescue(const Run *run) {
     return false;
 }
 
-static bool run_train(Run *run, const char *scene) {
+static bool run_train(Run *run) {
     interrupt_install();
-    if (!run_open(run, scene)) return false;
+    if (!run_open(run)) return false;
     if (!train(run)) return rescue(run);
     bool interrupted = trainer_steps_done(run->trainer) < run->options.train.iterations;
     if (!save_all(run, true)) return false;
@@ -335,7 +362,8 @@ static int cmd_train(int argc, char **argv) {
     if (!command_line_parse(&CMD_TRAIN, &table, argc, argv, &run.options, positional, 1, &count, &exit_code))
         return exit_code;
     log_set_quiet(run.options.quiet);
-    bool done = run_train(&run, count ? positional[0] : NULL);
+    bool done = name_run(&run, count ? positional[0] : NULL) &&
+                (!run.options.resume[0] || resume_options(&run, argc, argv)) && run_train(&run);
     run_close(&run);
     return done ? 0 : command_failed();
 }

@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -27,23 +28,50 @@ void run_folder_forget(RunFolder *run) {
     *run = (RunFolder){0};
 }
 
-bool run_folder_begin(const RunFolder *run, bool overwrite) {
-    if (!file_make_folder(run->folder) || !file_can_write_in(run->folder)) return false;
-    const char *const old[] = {run->options, run->metrics, run->checkpoint, run->model};
-    for (int i = 0; i < 4; i++) {
-        if (!file_exists(old[i])) continue;
-        if (!overwrite)
-            return fail(
-                "%s holds a run already (%s); go on with it by --resume %s, choose another folder, or say --overwrite",
-                run->folder, strrchr(old[i], '/') + 1, run->folder);
-        if (unlink(old[i]) != 0) return fail("cannot remove %s: %s", old[i], strerror(errno));
-    }
-    return true;
+bool run_folder_take_scene(const char *scene, TrainOptions *options) {
+    char *full = realpath(scene, NULL);
+    if (!full) return fail("there is no %s; a scene is a folder with images and cameras", scene);
+    size_t length = strlen(full);
+    json_t *text = json_string(full);
+    bool fits = length < sizeof options->scene, taken = fits && text;
+    if (taken)
+        memcpy(options->scene, full, length + 1);
+    else if (!fits)
+        fail("the path %s has %zu bytes, want less than %zu; move the scene, or give it a shorter name", full, length,
+             sizeof options->scene);
+    else
+        fail("the path %s is no UTF-8, so that options.json cannot hold it; rename the folder", full);
+    json_decref(text);
+    free(full);
+    return taken;
 }
 
-bool run_folder_save_options(const RunFolder *run, const TrainOptions *options) {
+enum { FILES = 4 };
+
+// Those of a run's files that are there; returns how many.
+static int list_old(const RunFolder *run, const char *old[FILES]) {
+    const char *const all[FILES] = {run->options, run->metrics, run->checkpoint, run->model};
+    int count = 0;
+    for (int i = 0; i < FILES; i++)
+        if (file_exists(all[i])) old[count++] = all[i];
+    return count;
+}
+
+bool run_folder_check(const RunFolder *run, bool overwrite) {
+    const char *old[FILES];
+    if (!file_make_folder(run->folder) || !file_can_write_in(run->folder)) return false;
+    if (overwrite || list_old(run, old) == 0) return true;
+    return fail("%s holds a run already (%s); go on with it by --resume %s, choose another folder, or say --overwrite",
+                run->folder, strrchr(old[0], '/') + 1, run->folder);
+}
+
+bool run_folder_begin(const RunFolder *run, const TrainOptions *options) {
+    const char *old[FILES];
+    int count = list_old(run, old);
+    for (int i = 0; i < count; i++)
+        if (unlink(old[i]) != 0) return fail("cannot remove %s: %s; check its permissions", old[i], strerror(errno));
     json_t *root = json_from_options(&TRAIN_OPTIONS, options);
-    json_object_set_new(root, "scene", json_string(options->scene));
+    json_object_set_new(root, "scene", json_text(options->scene));
     bool done = json_write(run->options, root);
     json_decref(root);
     return done;

@@ -17,11 +17,16 @@ typedef struct {
 RunFolder run_folder_name(const char *folder);
 void run_folder_forget(RunFolder *run); // frees the names, touches no file; accepts a zeroed one
 
-// Makes the folder for a new run. Refuses one that holds a run already, unless `overwrite`: then its old files are removed.
-bool run_folder_begin(const RunFolder *run, bool overwrite);
+// The scene's absolute path, so that the run can be resumed from anywhere. Fails where options.json could not hold it.
+bool run_folder_take_scene(const char *scene, TrainOptions *options);
 
-// options.json, with the scene's absolute path, so that the run can be resumed from anywhere.
-bool run_folder_save_options(const RunFolder *run, const TrainOptions *options);
+// Can a new run begin there? Makes the folder; refuses one in which nothing can be written, and one that holds a run already,
+// unless `overwrite`. Removes nothing: what is still to be checked may fail.
+bool run_folder_check(const RunFolder *run, bool overwrite);
+
+// Begins a new run: removes the files of an old one and writes options.json.
+bool run_folder_begin(const RunFolder *run, const TrainOptions *options);
+
 bool run_folder_load_options(const RunFolder *run, TrainOptions *options);
 
 #endif

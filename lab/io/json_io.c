@@ -117,6 +117,17 @@ bool json_get_text(const json_t *object, const char *key, const char *where, con
     return true;
 }
 
+json_t *json_text(const char *text) {
+    json_t *value = json_string(text);
+    if (value) return value;
+    char *ascii = mem_text(text);
+    for (char *c = ascii; *c; c++)
+        if ((unsigned char)*c >= 128) *c = '?';
+    value = json_string(ascii);
+    mem_free(ascii);
+    return value;
+}
+
 bool json_get_matrix4(const json_t *object, const char *key, const char *where, double values[16]) {
     json_t *found;
     if (!get(object, key, where, &found)) return false;
@@ -134,18 +145,6 @@ static void json_key(const OptionField *field, char key[64]) {
     snprintf(key, 64, "%s", field->name);
     for (char *c = key; *c; c++)
         if (*c == '-') *c = '_';
-}
-
-// JSON holds UTF-8 only; a path may hold any bytes. What is no ASCII is then written as '?'.
-static json_t *text_value(const char *text) {
-    json_t *value = json_string(text);
-    if (value) return value;
-    char *ascii = mem_text(text);
-    for (char *c = ascii; *c; c++)
-        if ((unsigned char)*c >= 128) *c = '?';
-    value = json_string(ascii);
-    mem_free(ascii);
-    return value;
 }
 
 static json_t *option_value(const OptionField *field, const void *options) {
@@ -166,7 +165,7 @@ static json_t *option_value(const OptionField *field, const void *options) {
     case OPTION_SIZE:
         break;
     }
-    return text_value(option_text(field, options, text, sizeof text));
+    return json_text(option_text(field, options, text, sizeof text));
 }
 
 json_t *json_from_options(const OptionTable *table, const void *options) {

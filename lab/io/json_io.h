@@ -23,6 +23,9 @@ bool json_get_numbers(const json_t *object, const char *key, const char *where, 
 bool json_get_text(const json_t *object, const char *key, const char *where, const char **text); // borrowed from object
 bool json_has(const json_t *object, const char *key);
 
+// A text for JSON, which holds UTF-8 only: where a path is not, what is no ASCII becomes '?'. Never NULL.
+json_t *json_text(const char *text);
+
 // A 4x4 matrix as nested rows ([[..4..] x 4]) or as 16 numbers in a row, row-major.
 bool json_get_matrix4(const json_t *object, const char *key, const char *where, double values[16]);
 

@@ -124,6 +124,47 @@ static void resuming_what_is_no_run_says_so(void **state) {
     command_expect_error(&r, 1, "no/such/run", "holds no run", NULL);
     r = command_run("train", scene, "--resume", "no/such/run", NULL);
     command_expect_error(&r, 2, "--resume takes the scene from its run", NULL);
+    r = command_run("train", "--resume", "no/such/run", "-o", new_run("never"), NULL);
+    command_expect_error(&r, 2, "--resume writes to the folder of its run", NULL);
+}
+
+static void a_run_that_cannot_begin_leaves_the_folder_as_it_was(void **state) {
+    (void)state;
+    char run[4096];
+    snprintf(run, sizeof run, "%s", new_run("second try"));
+    CommandResult r = command_run("train", scene, "-o", run, "--device", "no such device", NULL);
+    command_expect_error(&r, 2, "no such device", NULL);
+    assert_false(file_exists(support_path(run, "options.json")));
+    r = command_run("train", scene, "-o", run, "--iterations", "2", "--quiet", NULL); // nothing is in its way
+    command_expect(&r, 0);
+    char before[65], after[65];
+    assert_true(file_sha256(support_path(run, "model.ply"), before));
+    r = command_run("train", scene, "-o", run, "--overwrite", "--device", "no such device", NULL);
+    command_expect_error(&r, 2, "no such device", NULL);
+    assert_true(file_sha256(support_path(run, "model.ply"), after));
+    assert_string_equal(before, after);
+}
+
+static void resuming_keeps_to_the_options_of_the_run(void **state) {
+    (void)state;
+    char run[4096];
+    snprintf(run, sizeof run, "%s", new_run("own options"));
+    CommandResult r = command_run("train", scene, "-o", run, "--iterations", "2", "--quiet", NULL);
+    command_expect(&r, 0);
+    r = command_run("train", "--resume", run, "--iterations", "7000",
+                    NULL); // 7000 is the default: it is noticed all the same
+    command_expect_error(&r, 2, "--iterations 7000", "was begun with 2", NULL);
+    r = command_run("train", "--resume", run, "--iterations", "2", "--quiet", NULL);
+    command_expect(&r, 0);
+}
+
+static void a_scene_whose_path_is_no_utf8_is_refused_before_anything_is_written(void **state) {
+    (void)state;
+    const char *odd = support_path(support_scratch(), "sc\xe8ne");
+    if (!file_make_folder(odd)) skip(); // some file systems take no such name
+    CommandResult r = command_run("train", odd, "-o", new_run("never"), NULL);
+    command_expect_error(&r, 1, "no UTF-8", "rename", NULL);
+    assert_false(file_exists(new_run("never")));
 }
 
 int main(void) {
@@ -135,6 +176,9 @@ int main(void) {
         cmocka_unit_test(a_truncated_image_is_named),
         cmocka_unit_test(a_camera_that_is_not_a_number_is_refused),
         cmocka_unit_test(resuming_what_is_no_run_says_so),
+        cmocka_unit_test(a_run_that_cannot_begin_leaves_the_folder_as_it_was),
+        cmocka_unit_test(resuming_keeps_to_the_options_of_the_run),
+        cmocka_unit_test(a_scene_whose_path_is_no_utf8_is_refused_before_anything_is_written),
     };
     return cmocka_run_group_tests(tests, make_files, NULL);
 }
