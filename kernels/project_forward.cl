@@ -31,7 +31,9 @@ static bool tile_range(float centre, float half_extent, int pixels, int *first, 
     const float reach = half_extent + extent_margin_px(centre, half_extent);
     const float low = centre - reach - 0.5f, high = centre + reach - 0.5f;
     if (!(high >= 0 && low <= (float)(pixels - 1))) return false;
-    const int first_pixel = (int)ceil(max(low, 0.0f)), last_pixel = (int)floor(min(high, (float)(pixels - 1)));
+    // Rounded by truncating numbers >= 0: ceil() and floor() are slow calls on some devices.
+    const float from = low > 0 ? low : 0, to = high < pixels - 1 ? high : pixels - 1;
+    const int first_pixel = (int)from + ((float)(int)from < from), last_pixel = (int)to;
     *first = first_pixel / TILE_SIZE;
     *end = last_pixel / TILE_SIZE + 1;
     return first_pixel <= last_pixel;

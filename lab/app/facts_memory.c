@@ -3,24 +3,28 @@
 
 #include "kernels/shared.h"
 
-// An expectation: 100,000 splats of 3 px spread over 640 x 480 touch 5 tiles each, larger pictures more.
-enum { PAIRS_PER_SPLAT = 8 };
+#include <stdint.h>
+
+// An expectation: 100,000 splats of 3 px spread over 640 x 480 touch 5 tiles each; the boxes round them a few more.
+enum { TILES_PER_SPLAT = 5 };
 
 // Per splat: parameters, gradient and Adam's two moments.
 static size_t learned_bytes(int sh_degree) { return 4 * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree); }
 
-// Per splat: its place on the screen, its gradient there (as many floats), depth order, id and density statistics, and a
-// gradient record, an index and a mask for each tile that it touches.
+// Per splat: its place on the screen, its depth, the keys it is sorted by and its rank, id and density statistics; and a gradient
+// record, a mask and a list entry (splat, slot, mask) for each tile that it touches.
 static size_t working_bytes(void) {
-    size_t screen = 2 * sizeof(ScreenSplat) + sizeof(TileBox);
-    size_t order_and_statistics = 6 * sizeof(float);
-    size_t pair = sizeof(PairGradient) + 3 * sizeof(int);
-    return screen + order_and_statistics + PAIRS_PER_SPLAT * pair;
+    const size_t screen = sizeof(ScreenSplat) + sizeof(TileBox) + sizeof(float);
+    const size_t sorting = 2 * sizeof(uint64_t) + 2 * sizeof(uint32_t);
+    const size_t statistics = 3 * sizeof(float);
+    const size_t tile = sizeof(PairGradient) + 2 * sizeof(uint16_t) + 2 * sizeof(uint32_t);
+    return screen + sorting + statistics + TILES_PER_SPLAT * tile;
 }
 
-// Per splat: the host's copy of parameters and moments, id and statistics, while the model grows or is saved.
+// Per splat: what density control, saving and scoring copy: parameters and moments on the host, with id and statistics, and for the
+// pictures of a score parameters and gradient once more on the device.
 static size_t copied_bytes(int sh_degree) {
-    return 3 * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree) + 3 * sizeof(int);
+    return (3 + 2) * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree) + 3 * sizeof(int);
 }
 
 // The program itself with the OpenCL driver and its compiler, as measured with PoCL.
