@@ -178,11 +178,10 @@ bool file_make_folder(const char *path) {
         while (*end && *end != '/') end++;
         char kept = *end;
         *end = 0;
-        if (mkdir(part, 0777) != 0 && !file_is_folder(part)) {
-            int error = errno;
+        int error = mkdir(part, 0777) != 0 ? errno : 0;
+        if (error && !file_is_folder(part))
             ok = error == EEXIST ? fail("cannot make folder %s: a file of that name is in the way", part)
                                  : fail_errno("make folder", part, error);
-        }
         *end = kept;
         if (!kept) break;
     }

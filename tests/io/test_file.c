@@ -4,6 +4,7 @@
 #include "lab/io/file.h"
 #include "tests/support/support.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -169,6 +170,9 @@ static void folders_are_made_with_their_parents(void **state) {
     assert_false(file_is_folder(file));
     assert_false(file_make_folder(support_path(file, "sub")));
     assert_non_null(strstr(fail_text(), "file"));
+    // The reason told is why it could not be made, not that it is not there.
+    assert_false(file_make_folder("/sys/nobody makes folders here"));
+    assert_null(strstr(fail_text(), strerror(ENOENT)));
     mem_free(deep);
 }
 
