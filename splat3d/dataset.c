@@ -244,3 +244,26 @@ size_t dataset_image_bytes(const Dataset *dataset) {
     }
     return bytes;
 }
+
+// FNV-1a of 64 bits (Fowler, Noll and Vo 1991).
+static uint64_t mix(uint64_t hash, const void *data, size_t bytes) {
+    const unsigned char *byte = data;
+    for (size_t i = 0; i < bytes; i++) hash = (hash ^ byte[i]) * 0x100000001b3u;
+    return hash;
+}
+
+_Static_assert(sizeof(Camera) == 2 * sizeof(int) + 16 * sizeof(double), "a camera with gaps cannot be hashed as bytes");
+
+uint64_t dataset_fingerprint(const Dataset *dataset) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (int i = 0; i < dataset->view_count; i++) {
+        const View *view = &dataset->views[i];
+        hash = mix(hash, view->name, strlen(view->name) + 1);
+        hash = mix(hash, &view->camera, sizeof view->camera);
+        hash = mix(hash, &view->channels, sizeof view->channels);
+        hash = mix(hash, &view->held_out, sizeof view->held_out);
+    }
+    size_t numbers = 3 * (size_t)dataset->points.count;
+    hash = mix(hash, dataset->points.xyz, numbers * sizeof *dataset->points.xyz);
+    return mix(hash, dataset->points.rgb, numbers * sizeof *dataset->points.rgb);
+}

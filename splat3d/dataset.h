@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 enum { HELD_OUT_EVERY = 8 }; // index mod 8 = 0 of the sorted names; a single view is trained on
 
@@ -54,6 +55,10 @@ int dataset_held_out_count(const Dataset *dataset);
 const View *dataset_find_view(const Dataset *dataset,
                               const char *name);    // exact, or without its ending; NULL if there is none
 size_t dataset_image_bytes(const Dataset *dataset); // what dataset_load_images() holds
+
+// A number that tells whether the scene is what it was: it follows from the views (names, cameras, sizes, which are held out), the
+// points and downscaling. Pixels are not looked at.
+uint64_t dataset_fingerprint(const Dataset *dataset);
 
 // ---- the readers that dataset_open() chooses from ----
 // Each fills everything but downscaling, images, extent and centre; *dataset is to be destroyed also after a failure.

@@ -17,6 +17,7 @@ struct Trainer {
     float background[3];
     bool background_is_random;
     const Dataset *dataset;
+    uint64_t scene; // its fingerprint
 
     // The training views, by index 0..view_count-1.
     int view_count;
@@ -74,6 +75,7 @@ static bool begin_from_points(Trainer *t) {
     if (d->points.count == 0) random = first_splats_random_points(d, o->init_points, o->seed);
     TrainingState state = training_state_from_model(
         first_splats_from_points(random.count ? &random : &d->points, o->sh_degree, o->init_opacity));
+    state.scene = t->scene;
     bool done = trainer_set_state(t, &state);
     training_state_destroy(&state);
     points_destroy(&random);
@@ -84,6 +86,7 @@ bool trainer_create(Gpu *gpu, BlendKernels blend, const TrainOptions *options, D
     Trainer *t = mem_alloc(1, sizeof *t);
     t->options = *options;
     t->dataset = dataset;
+    t->scene = dataset_fingerprint(dataset);
     t->gpu = gpu;
     bool done = background_parse(options->background, t->background, &t->background_is_random) &&
                 create_device_side(t, blend) && upload_views(t, dataset) && begin_from_points(t);
@@ -127,7 +130,7 @@ RenderSettings trainer_render_settings(const Trainer *t) {
 }
 
 bool trainer_get_state(const Trainer *t, TrainingState *state) {
-    TrainingState s = {.steps_done = t->steps_done, .seconds = t->seconds, .next_id = t->next_id};
+    TrainingState s = {.steps_done = t->steps_done, .scene = t->scene, .seconds = t->seconds, .next_id = t->next_id};
     size_t n = (size_t)t->model.count;
     s.id = mem_alloc(n, sizeof *s.id);
     s.gradient_sum = mem_alloc(n, sizeof *s.gradient_sum);
@@ -146,6 +149,11 @@ bool trainer_get_state(const Trainer *t, TrainingState *state) {
 
 bool trainer_set_state(Trainer *t, const TrainingState *s) {
     size_t n = (size_t)s->model.count;
+    if (s->scene != t->scene)
+        return fail("%s is no longer what the state was trained on: views, cameras, points or the pictures' sizes have "
+                    "changed; "
+                    "put them back, or begin a new run",
+                    t->dataset->path);
     if (s->model.sh_degree != t->options.sh_degree)
         return fail("the state has SH degree %d, the options say %d; put sh_degree of options.json back",
                     s->model.sh_degree, t->options.sh_degree);

@@ -40,7 +40,7 @@ double trainer_scene_extent(const Trainer *trainer); // world units
 
 // Everything learned so far, to be written (training_state.h) or looked at; owned by the caller.
 bool trainer_get_state(const Trainer *trainer, TrainingState *state);
-// Goes on from that state (copied). Its SH degree must be that of the options.
+// Goes on from that state (copied). Its SH degree must be that of the options, and the scene what it was.
 bool trainer_set_state(Trainer *trainer, const TrainingState *state);
 
 Rasterizer *trainer_rasterizer(Trainer *trainer); // of the trainer's device; for evaluation between two steps

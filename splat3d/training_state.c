@@ -8,12 +8,13 @@
 #include <zlib.h>
 
 // "splatlab checkpoint" and the version of the layout below; a new layout is a new number.
-static const char MAGIC[16] = "splatlab ckpt 1";
+static const char MAGIC[16] = "splatlab ckpt 2";
 
 typedef struct {
     char magic[16];
     int32_t count, sh_degree, steps_done;
     uint32_t next_id;
+    uint64_t scene;
     double seconds;
 } Header;
 
@@ -74,6 +75,7 @@ bool training_state_save(const TrainingState *s, const char *path) {
                      .sh_degree = s->model.sh_degree,
                      .steps_done = s->steps_done,
                      .next_id = s->next_id,
+                     .scene = s->scene,
                      .seconds = s->seconds};
     memcpy(header.magic, MAGIC, sizeof MAGIC);
     Array arrays[ARRAYS_MAX];
@@ -117,6 +119,7 @@ bool training_state_load(const char *path, TrainingState *state) {
     state->steps_done = header.steps_done;
     state->seconds = header.seconds;
     state->next_id = header.next_id;
+    state->scene = header.scene;
     Array arrays[ARRAYS_MAX];
     int count = list_arrays(state, arrays);
     const char *from = data + sizeof header;

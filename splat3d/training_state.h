@@ -11,6 +11,7 @@
 
 typedef struct {
     int steps_done;
+    uint64_t scene;  // dataset_fingerprint() of what it was trained on
     double seconds;  // spent on them, all runs together
     Gaussians model; // N splats
     Gaussians m, v;  // Adam's first and second moments, the same shape

@@ -296,6 +296,9 @@ static bool train(Run *run) {
         progress_update(&progress, report.step, note);
         if (!after_step(run, &report)) {
             progress_end(&progress, NULL);
+            if (file_exists(run->folder.checkpoint))
+                log_warn("the last checkpoint is whole; when this is mended, go on with: splatlab train --resume %s",
+                         run->folder.folder);
             return false;
         }
     }

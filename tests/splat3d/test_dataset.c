@@ -152,6 +152,22 @@ static void views_are_found_with_and_without_ending(void **state) {
     dataset_destroy(&read);
 }
 
+static void the_fingerprint_tells_a_changed_scene(void **state) {
+    (void)state;
+    const char *folder = colmap_scene("fingerprint", 3, 8, 8);
+    Dataset a = scene_open(folder, 1), b = scene_open(folder, 1), half = scene_open(folder, 2);
+    uint64_t before = dataset_fingerprint(&a);
+    assert_true(dataset_fingerprint(&b) == before);
+    assert_true(dataset_fingerprint(&half) != before);
+    b.views[2].camera.translation.z += 1e-9;
+    assert_true(dataset_fingerprint(&b) != before);
+    a.points.rgb[4] ^= 1;
+    assert_true(dataset_fingerprint(&a) != before);
+    dataset_destroy(&a);
+    dataset_destroy(&b);
+    dataset_destroy(&half);
+}
+
 // COLMAP measures the pixels as they stand in the file; the orientation that a camera noted is nothing to it.
 static void exif_orientation_does_not_turn_the_pictures_of_colmap(void **state) {
     (void)state;
@@ -193,6 +209,7 @@ int main(void) {
         cmocka_unit_test(images_are_the_same_with_one_thread_or_many),
         cmocka_unit_test(the_first_broken_image_is_named),
         cmocka_unit_test(views_are_found_with_and_without_ending),
+        cmocka_unit_test(the_fingerprint_tells_a_changed_scene),
         cmocka_unit_test(exif_orientation_does_not_turn_the_pictures_of_colmap),
         cmocka_unit_test(real_photographs_are_loaded_downscaled),
     };

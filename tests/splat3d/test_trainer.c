@@ -256,6 +256,25 @@ static void a_number_that_is_not_finite_stops_training_by_name(void **state) {
     dataset_destroy(&d);
 }
 
+static void a_state_of_another_scene_is_refused(void **state) {
+    (void)state;
+    TrainOptions o = small_options(10);
+    Dataset d = make_dataset(), other = make_dataset();
+    other.views[1].camera.fx += 1;
+    Trainer *trainer;
+    TrainingState s;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+    check(trainer_get_state(trainer, &s));
+    trainer_destroy(trainer);
+    check(trainer_create(gpu, BLEND_AUTO, &o, &other, &trainer));
+    assert_false(trainer_set_state(trainer, &s));
+    assert_non_null(strstr(fail_text(), "memory is no longer what the state was trained on"));
+    training_state_destroy(&s);
+    trainer_destroy(trainer);
+    dataset_destroy(&d);
+    dataset_destroy(&other);
+}
+
 static void density_control_that_would_leave_nothing_stops_with_the_model_it_had(void **state) {
     (void)state;
     TrainOptions o = small_options(10);
@@ -284,6 +303,7 @@ int main(void) {
         cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_does_not),
         cmocka_unit_test(an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one),
         cmocka_unit_test(a_number_that_is_not_finite_stops_training_by_name),
+        cmocka_unit_test(a_state_of_another_scene_is_refused),
         cmocka_unit_test(density_control_that_would_leave_nothing_stops_with_the_model_it_had),
     };
     return cmocka_run_group_tests_name("trainer", tests, open_device, close_device);

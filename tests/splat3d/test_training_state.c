@@ -16,7 +16,7 @@ static TrainingState random_state(int count, int degree) {
             for (int i = 0; parts[p]->field[f] && i < count * GAUSSIAN_FIELDS[f].width; i++)
                 parts[p]->field[f][i] = (float)rng_normal(&rng);
     for (int i = 0; i < count; i++) s.id[i] = rng_u32(&rng), s.gradient_sum[i] = (float)i, s.seen[i] = 2 * i;
-    s.next_id = 77, s.steps_done = 123, s.seconds = 4.5;
+    s.next_id = 77, s.steps_done = 123, s.seconds = 4.5, s.scene = 1ull << 63 | 5;
     return s;
 }
 
@@ -35,6 +35,7 @@ static void a_state_comes_back_byte_for_byte(void **state) {
         assert_memory_equal(x, y, nx);
         assert_int_equal(b.steps_done, 123);
         assert_int_equal(b.next_id, 77);
+        assert_true(b.scene == (1ull << 63 | 5));
         assert_memory_equal(a.seen, b.seen, (size_t)a.model.count * sizeof *a.seen);
         mem_free(x);
         mem_free(y);
