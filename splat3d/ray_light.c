@@ -26,7 +26,7 @@ typedef struct {
     RayScene *scene;
     int quality;
     uint64_t seed;
-    uint8_t *material; // (V) of a vertex: that of one of its triangles
+    int *triangle;     // (V) one of those that a vertex belongs to
     Vec3 *mean_albedo; // (materials)
     float *lamps;      // (V,3) light straight from lamps
     float *source;     // (V,3) light that surfaces hand on: lamps, sun, and what was gathered in the round before
@@ -104,11 +104,20 @@ static Vec3 gather(const Bake *b, Vec3 point, Vec3 normal, bool both_sides, Rng 
     return vec3_scale(sum, 1.0 / (rings * sectors));
 }
 
+// Where the light of a vertex is measured: a little inside the triangle, because in the corner of a room the vertex itself
+// stands on two walls, and half of its rays would leave through the other one.
+static Vec3 place_of(const RayMesh *mesh, int triangle, int vertex) {
+    Vec3 middle = {0, 0, 0};
+    for (int k = 0; k < 3; k++)
+        middle = vec3_add(middle, vec3_scale(ray_mesh_position(mesh, mesh->corner[3 * triangle + k]), 1 / 3.0));
+    return vec3_lerp(ray_mesh_position(mesh, vertex), middle, 0.05);
+}
+
 static void bake_vertex(Bake *b, int vertex) {
     RayScene *s = b->scene;
     if (s->mesh.light_from[vertex] != vertex) return;
-    Vec3 point = ray_mesh_position(&s->mesh, vertex), normal = ray_mesh_normal(&s->mesh, vertex);
-    bool both_sides = s->material[b->material[vertex]].translucency > 0;
+    Vec3 point = place_of(&s->mesh, b->triangle[vertex], vertex), normal = ray_mesh_normal(&s->mesh, vertex);
+    bool both_sides = s->material[s->mesh.material[b->triangle[vertex]]].translucency > 0;
     Rng rng = rng_at(b->seed, RNG_SCENE_LAYOUT, (uint32_t)(LIGHT_KIND + b->pass), (uint32_t)vertex);
     if (b->pass > 0) {
         store(s->mesh.light, vertex, gather(b, point, normal, both_sides, &rng));
@@ -173,15 +182,14 @@ static void smooth(const RayMesh *mesh, float *light) {
 bool ray_light_store(RayScene *scene, int quality, uint64_t seed) {
     size_t vertices = (size_t)scene->mesh.vertex_count;
     Bake b = {.scene = scene, .quality = quality, .seed = seed};
-    b.material = mem_alloc(vertices, 1);
+    b.triangle = mem_alloc(vertices, sizeof(int));
     b.mean_albedo = mem_alloc((size_t)scene->material_count, sizeof(Vec3));
     b.lamps = mem_alloc(3 * vertices, sizeof(float));
     b.sun = mem_alloc(3 * vertices, sizeof(float));
     b.source = mem_alloc(3 * vertices, sizeof(float));
     memset(scene->mesh.light, 0, 3 * vertices * sizeof(float));
     for (int i = 0; i < scene->material_count; i++) b.mean_albedo[i] = ray_scene_mean_albedo(scene, i);
-    for (int i = 0; i < 3 * scene->mesh.triangle_count; i++)
-        b.material[scene->mesh.corner[i]] = scene->mesh.material[i / 3];
+    for (int i = 0; i < 3 * scene->mesh.triangle_count; i++) b.triangle[scene->mesh.corner[i]] = i / 3;
     Progress progress = progress_begin("light", 0, PASSES * (long)((vertices + BLOCK - 1) / BLOCK));
     bool ok = true;
     for (b.pass = 0; ok && b.pass < PASSES; b.pass++) {
@@ -194,7 +202,7 @@ bool ray_light_store(RayScene *scene, int quality, uint64_t seed) {
     for (int i = 0; i < mesh->vertex_count; i++)
         store(mesh->light, i, vec3_add(load(mesh->light, i), load(b.lamps, mesh->light_from[i])));
     progress_end(&progress, NULL);
-    mem_free(b.material);
+    mem_free(b.triangle);
     mem_free(b.mean_albedo);
     mem_free(b.lamps);
     mem_free(b.sun);

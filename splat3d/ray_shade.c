@@ -59,11 +59,13 @@ static SunLight light_of_sun(const RayScene *scene, const Ray *ray, const RaySur
 static RayShade shade(const RayScene *scene, const Ray *ray, double width_per_unit, double travelled, int bounce,
                       Rng *rng);
 
+static double fifth_power(double x) { return x * x * x * x * x; }
+
 // Part of the light that the coat mirrors, after Schlick, "An inexpensive BRDF model", Eurographics 1994.
 static double mirror_part(const RayMaterial *m, const RaySurfacePoint *p, Vec3 direction) {
     if (m->coat <= 0) return 0;
     double cosine = fmax(-vec3_dot(p->normal, direction), 0);
-    return m->coat + (1 - m->coat) * (1 - m->roughness) * pow(1 - cosine, 5);
+    return m->coat + (1 - m->coat) * (1 - m->roughness) * fifth_power(1 - cosine);
 }
 
 static Vec3 mirrored_light(const RayScene *scene, const Ray *ray, const RaySurfacePoint *p, double width_per_unit,

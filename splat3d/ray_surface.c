@@ -39,20 +39,18 @@ static Chart chart_of(const RayMesh *mesh, const int corner[3], Vec3 edge1, Vec3
                    vec3_add(vec3_scale(b1_per, b[1] - a[1]), vec3_scale(b2_per, c[1] - a[1]))};
 }
 
-// Bends the normal down the slope of the texture's height, which is measured one step away on either side in two directions.
+// Bends the normal down the slope of the texture's height, which is measured here and one step away in two directions.
 static Vec3 bend_normal(const RayTexture *texture, const Chart *chart, Vec3 normal, double u, double v, double width,
                         double relief) {
     double steepest = fmax(vec3_length(chart->u_per), vec3_length(chart->v_per));
     double step = fmax(width, 1 / (texture->size * fmax(steepest, 1e-6)));
     Vec3 side = fabs(normal.z) < 0.9 ? vec3(0, 0, 1) : vec3(1, 0, 0);
     Vec3 a = vec3_normalize(vec3_cross(side, normal)), b = vec3_cross(normal, a), bent = normal;
+    double here = ray_texture_height(texture, u, v, step * steepest);
     for (int k = 0; k < 2; k++) {
         Vec3 axis = k ? b : a;
         double du = step * vec3_dot(chart->u_per, axis), dv = step * vec3_dot(chart->v_per, axis);
-        RayFootprint round = {du, dv, -dv, du};
-        double slope = (ray_texture_read(texture, u + du, v + dv, round).height -
-                        ray_texture_read(texture, u - du, v - dv, round).height) *
-                       0.5 * relief / step;
+        double slope = (ray_texture_height(texture, u + du, v + dv, step * steepest) - here) * relief / step;
         bent = vec3_sub(bent, vec3_scale(axis, slope));
     }
     return vec3_normalize(bent);

@@ -5,7 +5,7 @@
 
 #include <assert.h>
 
-enum { PROBES_MAX = 8 }; // along the longer axis
+enum { PROBES_MAX = 6 }; // along the longer axis
 
 typedef struct {
     RayTexture *texture;
@@ -55,25 +55,36 @@ void ray_texture_destroy(RayTexture *texture) {
     *texture = (RayTexture){0};
 }
 
-// Adds weight * the bilinear value at (u, v) of one level: squares of the stored roots, and the height.
-static void add_bilinear(const RayTexture *t, int level, double u, double v, double weight, double sum[4]) {
+// The four texels round (u, v) of one level and their weights.
+typedef struct {
+    const uint8_t *texel[4];
+    double weight[4];
+} Neighbours;
+
+static inline Neighbours neighbours_at(const RayTexture *t, int level, double u, double v) {
     int side = t->size >> level, mask = side - 1;
     double x = u * side - 0.5, y = v * side - 0.5, fx = floor(x), fy = floor(y);
     int x0 = (int)fx & mask, y0 = (int)fy & mask, x1 = (x0 + 1) & mask, y1 = (y0 + 1) & mask;
     const uint8_t *texels = t->texel[level];
-    const uint8_t *corner[4] = {texels + 4 * (y0 * side + x0), texels + 4 * (y0 * side + x1),
-                                texels + 4 * (y1 * side + x0), texels + 4 * (y1 * side + x1)};
     x -= fx, y -= fy;
-    double part[4] = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+    return (Neighbours){{texels + 4 * (y0 * side + x0), texels + 4 * (y0 * side + x1), texels + 4 * (y1 * side + x0),
+                         texels + 4 * (y1 * side + x1)},
+                        {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y}};
+}
+
+// Adds weight * the bilinear value at (u, v) of one level: squares of the stored roots, and the height.
+static void add_bilinear(const RayTexture *t, int level, double u, double v, double weight, double sum[4]) {
+    Neighbours n = neighbours_at(t, level, u, v);
     for (int k = 0; k < 4; k++) {
-        double w = weight * part[k];
-        const uint8_t *p = corner[k];
+        double w = weight * n.weight[k];
+        const uint8_t *p = n.texel[k];
         sum[0] += w * (p[0] * p[0]), sum[1] += w * (p[1] * p[1]), sum[2] += w * (p[2] * p[2]), sum[3] += w * p[3];
     }
 }
 
 RayTexel ray_texture_read(const RayTexture *texture, double u, double v, RayFootprint f) {
-    double longer = hypot(f.long_u, f.long_v) * texture->size, shorter = hypot(f.short_u, f.short_v) * texture->size;
+    double longer = sqrt(f.long_u * f.long_u + f.long_v * f.long_v) * texture->size;
+    double shorter = sqrt(f.short_u * f.short_u + f.short_v * f.short_v) * texture->size;
     if (shorter > longer) {
         double swap = longer;
         longer = shorter, shorter = swap;
@@ -92,6 +103,15 @@ RayTexel ray_texture_read(const RayTexture *texture, double u, double v, RayFoot
     }
     const double unit = 1.0 / (255 * 255);
     return (RayTexel){vec3(sum[0] * unit, sum[1] * unit, sum[2] * unit), sum[3] / 255};
+}
+
+double ray_texture_height(const RayTexture *texture, double u, double v, double width) {
+    int level = 0;
+    for (double texels = width * texture->size; texels > 1.5 && level < texture->levels - 1; texels /= 2) level++;
+    Neighbours n = neighbours_at(texture, level, u, v);
+    double sum = 0;
+    for (int k = 0; k < 4; k++) sum += n.weight[k] * n.texel[k][3];
+    return sum / 255;
 }
 
 Vec3 ray_texture_mean(const RayTexture *texture) {

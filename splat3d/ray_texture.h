@@ -35,6 +35,9 @@ typedef struct {
 
 RayTexel ray_texture_read(const RayTexture *texture, double u, double v, RayFootprint footprint);
 
+// Only the height, over a round spot of this width in texture coordinates; much quicker.
+double ray_texture_height(const RayTexture *texture, double u, double v, double width);
+
 // The mean of the whole.
 Vec3 ray_texture_mean(const RayTexture *texture);
 

@@ -4,7 +4,8 @@
 #include "lab/base/parallel.h"
 #include "splat3d/ray_shade.h"
 
-enum { FINE = 3 }; // rays a side of a refined pixel
+enum { PARTS = 2 };                     // a side of a pixel; each round of refinement sends one ray through each part
+static const double SAME_COLOUR = 0.08; // largest difference of a channel, linear
 
 // What the ray through a pixel's centre found; the refinement rule reads it.
 typedef struct {
@@ -68,7 +69,7 @@ static bool differ(const Probe *a, const Probe *b, double plane_tolerance) {
         off_plane += a->normal[k] * (double)(b->position[k] - a->position[k]);
         cosine += a->normal[k] * (double)b->normal[k];
     }
-    return fabs(off_plane) > plane_tolerance || cosine < 0.9 || fabsf(a->plain - b->plain) > 0.035f;
+    return fabs(off_plane) > plane_tolerance || cosine < 0.9 || fabsf(a->plain - b->plain) > 0.05f;
 }
 
 static bool needs_refinement(const Job *job, int x, int y) {
@@ -82,20 +83,40 @@ static bool needs_refinement(const Job *job, int x, int y) {
     return false;
 }
 
+typedef struct {
+    Vec3 sum, low, high; // of the rays' colours
+    int count;
+} Colours;
+
+static void add_colour(Colours *c, Vec3 colour) {
+    c->sum = vec3_add(c->sum, colour);
+    c->low = vec3(fmin(c->low.x, colour.x), fmin(c->low.y, colour.y), fmin(c->low.z, colour.z));
+    c->high = vec3(fmax(c->high.x, colour.x), fmax(c->high.y, colour.y), fmax(c->high.z, colour.z));
+    c->count++;
+}
+
+// One round of refinement: a ray at a random place of each part of the pixel.
+static void trace_parts(const Job *job, int x, int y, Rng *rng, Colours *colours) {
+    for (int k = 0; k < PARTS * PARTS; k++) {
+        double px = x + (k % PARTS + rng_uniform(rng)) / PARTS, py = y + (k / PARTS + rng_uniform(rng)) / PARTS;
+        Ray ray = {job->eye, camera_ray(job->camera, px, py), 1e9};
+        RayShade s = ray_shade(job->scene, &ray, 0.5 * job->width_per_unit, rng);
+        add_colour(colours, rolled_off(s.radiance));
+    }
+}
+
 static void refine_row(void *context, int y) {
     Job *job = context;
     for (int x = 0; x < job->camera->width; x++) {
         if (!needs_refinement(job, x, y)) continue;
         uint32_t pixel = (uint32_t)(y * job->camera->width + x) | 0x80000000u; // apart from the numbers of the centres
         Rng rng = rng_at(job->seed, RNG_SCENE_PIXEL, (uint32_t)job->view, pixel);
-        Vec3 sum = {0, 0, 0};
-        for (int k = 0; k < FINE * FINE; k++) {
-            double px = x + (k % FINE + rng_uniform(&rng)) / FINE, py = y + (k / FINE + rng_uniform(&rng)) / FINE;
-            Ray ray = {job->eye, camera_ray(job->camera, px, py), 1e9};
-            RayShade s = ray_shade(job->scene, &ray, 0.5 * job->width_per_unit, &rng);
-            sum = vec3_add(sum, rolled_off(s.radiance));
-        }
-        store_pixel(job, x, y, sum, FINE * FINE);
+        Colours colours = {.low = {1, 1, 1}};
+        trace_parts(job, x, y, &rng, &colours);
+        Vec3 range = vec3_sub(colours.high, colours.low);
+        if (range.x > SAME_COLOUR || range.y > SAME_COLOUR || range.z > SAME_COLOUR)
+            trace_parts(job, x, y, &rng, &colours);
+        store_pixel(job, x, y, colours.sum, colours.count);
     }
 }
 

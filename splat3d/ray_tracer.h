@@ -1,8 +1,9 @@
 // ray_tracer.h - pictures of a sample scene: what each camera sees, with reflections, sun shadows, haze and smooth edges.
 //
 // One ray through each pixel's centre finds depth and what is there. Textures are filtered when they are read (ray_texture.h), so that
-// only pixels where something else than texture changes (outlines, shadows, reflections) get 3 x 3 rays more; a fixed rule on the
-// 3 x 3 neighbourhood decides which (after Whitted, "An improved illumination model for shaded display", CACM 1980).
+// only pixels where something else than texture changes (outlines, shadows, reflections) get more: 4 rays, and 4 besides where those
+// differ. A fixed rule on the 3 x 3 neighbourhood decides which (after Whitted, "An improved illumination model for shaded
+// display", CACM 1980).
 #ifndef SPLATLAB_SPLAT3D_RAY_TRACER_H
 #define SPLATLAB_SPLAT3D_RAY_TRACER_H
 

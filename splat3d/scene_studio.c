@@ -52,16 +52,16 @@ static void build_walls(const Studio *s) {
                                                  {0xC96A4A, 0x40304A, 0xF2D9A0},
                                                  {0x88A8A0, 0x7A3B2E, 0xE7B04C},
                                                  {0x4A5580, 0x2F6A60, 0xD9583B}};
-    const double rail = FLOOR + 0.95;
+    const double rail = FLOOR + 0.72;
     for (int wall = 0; wall < 4; wall++) {
         double angle = wall * PI / 2;
         Vec3 out = {-cos(angle), -sin(angle), 0}, up = {0, 0, 1};
         Vec3 right = vec3_cross(up, out);
         Vec3 foot = vec3_sub(vec3_scale(out, -ROOM), vec3_scale(right, ROOM));
         ray_shape_patch(s->mesh, vec3_add(foot, vec3(0, 0, FLOOR)), vec3_scale(right, 2 * ROOM),
-                        vec3_scale(up, rail - FLOOR), (RayGrid){cells(s, 100), cells(s, 16), 5, 0.72, panel});
+                        vec3_scale(up, rail - FLOOR), (RayGrid){cells(s, 100), cells(s, 14), 5, 0.55, panel});
         ray_shape_patch(s->mesh, vec3_add(foot, vec3(0, 0, rail)), vec3_scale(right, 2 * ROOM),
-                        vec3_scale(up, CEILING - rail), (RayGrid){cells(s, 100), cells(s, 28), 6, 1.7, paper});
+                        vec3_scale(up, CEILING - rail), (RayGrid){cells(s, 100), cells(s, 32), 6, 1.94, paper});
         RayFrame axes = {vec3_add(vec3_scale(out, -ROOM), vec3(0, 0, rail)), right, up, vec3_cross(right, up)};
         ray_shape_box(s->mesh, axes, vec3(ROOM, 0.035, 0.03), cell(s, 0.1), 0.5, wood);
         if (wall == 2) continue; // the window's
@@ -97,7 +97,10 @@ static void build_lamps(const Studio *s) {
         ray_shape_box(s->mesh, axes, vec3(i == 0 ? 0.12 : 0.06, half, i == 1 ? 0.022 : 0.05), cell(s, 0.1), 0.5, frame);
     }
     ray_scene_add_lamp(
-        s->scene, (RayLamp){vec3(0.1, -0.45, CEILING - 0.08), vec3(0, 1.3, 0), vec3(1.1, 0, 0), vec3(10.5, 9.0, 7.3)});
+        s->scene, (RayLamp){vec3(0.1, -0.45, CEILING - 0.08), vec3(0, 1.3, 0), vec3(1.1, 0, 0), vec3(9.5, 8.2, 6.7)});
+    const double wide = 2.6; // light that the ceiling spreads
+    ray_scene_add_lamp(s->scene, (RayLamp){vec3(-wide, -wide, CEILING - 0.01), vec3(0, 2 * wide, 0),
+                                           vec3(2 * wide, 0, 0), vec3(0.62, 0.58, 0.52)});
 }
 
 static void build_floor(const Studio *s) {
