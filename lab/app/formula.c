@@ -13,7 +13,7 @@ const char *formula_number(double value, char *buffer, int size) {
                          : magnitude < 0.1                      ? "%.6f"
                          : magnitude < 10                       ? "%.4f"
                                                                 : "%.1f";
-    snprintf(buffer, (size_t)size, format, value);
+    snprintf(buffer, (size_t)size, format, magnitude == 0 ? 0.0 : value); // never -0
     return buffer;
 }
 

@@ -4,18 +4,24 @@
 #include <math.h>
 #include <stddef.h>
 
-// a x + b y + c is the weight of one corner at (x, y): 1 there, 0 on the opposite edge.
-typedef struct {
-    double a, b, c;
-    bool owns_edge; // a point exactly on the edge is inside
-} Edge;
+// Places are rounded to 1 / SUBPIXELS px and taken as whole numbers: then what is on an edge is so for both triangles
+// that share it, whatever else they are made of.
+enum { SUBPIXELS = 256 };
+static const double PLACE_MAX = 1e6; // px
 
-// The edge from p to q, with the third corner on its positive side; area2 is twice the triangle's signed area.
-static Edge edge_between(const PaintVertex *p, const PaintVertex *q, double area2) {
-    double a = (p->y - q->y) / area2, b = (q->x - p->x) / area2;
-    bool owns = a > 0 || (a == 0 && b > 0); // left edges, and top ones
-    return (Edge){.a = a, .b = b, .c = -(a * p->x + b * p->y), .owns_edge = owns};
-}
+typedef struct {
+    int64_t x, y;
+} Place;
+
+static int64_t fixed(double px) { return llround(SUBPIXELS * fmin(PLACE_MAX, fmax(-PLACE_MAX, px))); }
+
+static Place place_of(const PaintVertex *vertex) { return (Place){fixed(vertex->x), fixed(vertex->y)}; }
+
+// Twice the signed area of p, q, r: positive when r lies to the right of the way from p to q (y points down).
+static int64_t area2(Place p, Place q, Place r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); }
+
+// A point exactly on the edge from p to q belongs to the triangle on its right only when it is a left or a top edge.
+static bool owns_edge(Place p, Place q) { return q.y < p.y || (q.y == p.y && q.x > p.x); }
 
 static void fetch(const Image8 *image, int x, int y, double rgba[4]) {
     x = x < 0 ? 0 : x >= image->width ? image->width - 1 : x;
@@ -59,25 +65,33 @@ static void blend(uint8_t *pixel, const PaintVertex *const corners[3], const dou
 static int box_start(double low, int clip_low) { return low > clip_low ? (int)floor(low) : clip_low; }
 static int box_end(double high, int clip_high) { return high < clip_high ? (int)ceil(high) + 1 : clip_high; }
 
-static void paint_triangle(Image8 *to, const int clip[4], PaintTexture texture, const PaintVertex *const p[3]) {
-    double area2 = ((double)p[1]->x - p[0]->x) * ((double)p[2]->y - p[0]->y) -
-                   ((double)p[1]->y - p[0]->y) * ((double)p[2]->x - p[0]->x);
-    if (area2 == 0) return;
-    const Edge edges[3] = {edge_between(p[1], p[2], area2), edge_between(p[2], p[0], area2),
-                           edge_between(p[0], p[1], area2)};
-    int left = box_start(fmin(p[0]->x, fmin(p[1]->x, p[2]->x)), clip[0]);
-    int right = box_end(fmax(p[0]->x, fmax(p[1]->x, p[2]->x)), clip[2]);
-    int top = box_start(fmin(p[0]->y, fmin(p[1]->y, p[2]->y)), clip[1]);
-    int bottom = box_end(fmax(p[0]->y, fmax(p[1]->y, p[2]->y)), clip[3]);
+static void paint_triangle(Image8 *to, const int clip[4], PaintTexture texture, const PaintVertex *const corners[3]) {
+    const PaintVertex *v[3] = {corners[0], corners[1], corners[2]};
+    Place p[3] = {place_of(v[0]), place_of(v[1]), place_of(v[2])};
+    int64_t whole = area2(p[0], p[1], p[2]);
+    if (whole == 0) return;
+    if (whole < 0) { // the other way round
+        const PaintVertex *kept = v[1];
+        v[1] = v[2], v[2] = kept;
+        p[1] = place_of(v[1]), p[2] = place_of(v[2]);
+        whole = -whole;
+    }
+    int left = box_start(fmin(v[0]->x, fmin(v[1]->x, v[2]->x)), clip[0]);
+    int right = box_end(fmax(v[0]->x, fmax(v[1]->x, v[2]->x)), clip[2]);
+    int top = box_start(fmin(v[0]->y, fmin(v[1]->y, v[2]->y)), clip[1]);
+    int bottom = box_end(fmax(v[0]->y, fmax(v[1]->y, v[2]->y)), clip[3]);
     for (int y = top; y < bottom && y < clip[3]; y++)
         for (int x = left; x < right && x < clip[2]; x++) {
+            Place centre = {(int64_t)x * SUBPIXELS + SUBPIXELS / 2, (int64_t)y * SUBPIXELS + SUBPIXELS / 2};
             double weights[3];
             bool inside = true;
-            for (int i = 0; i < 3 && inside; i++) {
-                weights[i] = edges[i].a * (x + 0.5) + edges[i].b * (y + 0.5) + edges[i].c;
-                inside = weights[i] > 0 || (weights[i] == 0 && edges[i].owns_edge);
+            for (int i = 0; i < 3 && inside; i++) { // weight of corner i: the part of the triangle that lies opposite
+                Place from = p[(i + 1) % 3], end = p[(i + 2) % 3];
+                int64_t part = area2(from, end, centre);
+                inside = part > 0 || (part == 0 && owns_edge(from, end));
+                weights[i] = (double)part / (double)whole;
             }
-            if (inside) blend(to->bytes + ((ptrdiff_t)y * to->width + x) * 3, p, weights, texture);
+            if (inside) blend(to->bytes + ((ptrdiff_t)y * to->width + x) * 3, v, weights, texture);
         }
 }
 
