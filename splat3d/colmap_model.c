@@ -93,7 +93,8 @@ bool colmap_model_add_image(ColmapModel *model, const ColmapImage *image, const 
 bool colmap_model_set_point(ColmapModel *model, int index, const double xyz[3], const int rgb[3], const char *where) {
     for (int k = 0; k < 3; k++) {
         size_t at = 3 * (size_t)index + (size_t)k;
-        if (!isfinite(xyz[k])) return fail("%s: position (%g, %g, %g) is not finite", where, xyz[0], xyz[1], xyz[2]);
+        if (!isfinite((float)xyz[k])) // splats are floats
+            return fail("%s: position (%g, %g, %g) is not finite; is the file damaged?", where, xyz[0], xyz[1], xyz[2]);
         if (rgb[k] < 0 || rgb[k] > 255)
             return fail("%s: colour %d %d %d, want 0 to 255", where, rgb[0], rgb[1], rgb[2]);
         model->points.xyz[at] = xyz[k];

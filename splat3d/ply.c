@@ -86,7 +86,7 @@ static bool find_columns(const PlyTable *table, const Column *columns, int count
 
 static bool check_quaternion(const PlyTable *table, const Gaussians *g, int splat) {
     const float *q = gaussians_at(g, FIELD_QUAT, splat);
-    // The largest part, not the sum of squares: that would vanish for a quaternion that is short but has a direction.
+    // Part by part: the sum of squares would vanish for a quaternion that is short but has a direction.
     if (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0) return true;
     return fail("cannot read %s: splat %d (counted from 0): its quaternion rot_0..rot_3 has length zero", table->path,
                 splat);
@@ -195,9 +195,9 @@ static bool read_points(PlyTable *table, const int at[6], double *row, Points *p
         if (!ply_table_next(table, row)) return false;
         for (int k = 0; k < 3; k++) {
             double value = points->xyz[3 * (size_t)i + (size_t)k] = row[at[k]];
-            if (!isfinite(value))
-                return fail("cannot read %s: point %d (counted from 0), column \"%c\": %g", table->path, i, axes[k],
-                            value);
+            if (!isfinite((float)value)) // splats are floats
+                return fail("cannot read %s: point %d (counted from 0), column \"%c\": %g; is the file damaged?",
+                            table->path, i, axes[k], value);
             uint8_t *colour = &points->rgb[3 * (size_t)i + (size_t)k];
             *colour = at[3 + k] < 0 ? 128 : colour_byte(row[at[3 + k]], ply_table_column(table, at[3 + k])->type);
         }

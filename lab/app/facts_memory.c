@@ -22,9 +22,9 @@ static size_t working_bytes(void) {
 }
 
 // Per splat: what density control, saving and scoring copy: parameters and moments on the host, with id and statistics, and for the
-// pictures of a score parameters and gradient once more on the device.
+// pictures of a score the parameters once more on the device.
 static size_t copied_bytes(int sh_degree) {
-    return (3 + 2) * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree) + 3 * sizeof(int);
+    return (3 + 1) * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree) + 3 * sizeof(int);
 }
 
 // The program itself with the OpenCL driver and its compiler, as measured with PoCL.

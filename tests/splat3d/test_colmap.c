@@ -186,6 +186,7 @@ static void what_is_wrong_in_a_text_model_is_named(void **state) {
         {"images.txt", IMAGES, IMAGES, "# nothing\n", "no images"},
         {"images.txt", IMAGES, IMAGES, "", "no images"},
         {"points3D.txt", POINTS, "1 2.5 -3e-1", "1 nan -3e-1", "not finite"},
+        {"points3D.txt", POINTS, "1 2.5 -3e-1", "1 1e39 -3e-1", "not finite"}, // too large for a float
         {"points3D.txt", POINTS, "1 2.5 -3e-1", "1 x -3e-1", "line 2"},
         {"points3D.txt", POINTS, "0 128 255", "0 128 256", "0 to 255"},
         {"points3D.txt", POINTS, "0 128 255", "0 128 -1", "0 to 255"},
