@@ -17,13 +17,13 @@
 //     slot   0 1 2 ... 10 | 11 12 ... 21         row r is stored at r % 11 and at r % 11 + 11;
 //                 [ s ... s + 10 ]               the 11 rows that end with r begin at s = r % 11 + 1
 // Sixteen lanes are written out because CPU compilers do not vectorise such a loop over work-items by themselves.
-// Local memory: none; 7 KB of private array. Test: tests/splat3d/test_opencl_loss.c.
+// Local memory: none; 6 KB of private array. Test: tests/splat3d/test_opencl_loss.c.
 #include "ssim_row.h"
 
 enum { TAPS = 2 * SSIM_RADIUS + 1 };
 
 typedef struct {
-    float16 x, y, xx, yy, xy; // blurred: picture, photo (less SSIM_SHIFT), their products
+    float16 x, y, squares, xy; // blurred: picture, photo (less SSIM_SHIFT), x^2 + y^2 (SSIM needs no more than their sum), x y
 } Moments;
 
 // Weighted by a distance from the window's centre, added to *sum.
@@ -31,15 +31,14 @@ static void add_tap(Moments *sum, float weight, float16 x, float16 y) {
     const float16 wx = weight * x, wy = weight * y;
     sum->x += wx;
     sum->y += wy;
-    sum->xx = fma(wx, x, sum->xx);
-    sum->yy = fma(wy, y, sum->yy);
+    sum->squares = fma(wx, x, fma(wy, y, sum->squares));
     sum->xy = fma(wx, y, sum->xy);
 }
 
 // A row blurred along x.
 static void blur_row(const float *w, SsimRow x, SsimRow y, Moments *out) {
     Moments sum;
-    sum.x = sum.y = sum.xx = sum.yy = sum.xy = (float16)(0.0f);
+    sum.x = sum.y = sum.squares = sum.xy = (float16)(0.0f);
 #define TAP(k, distance) add_tap(&sum, w[distance], SSIM_TAP_##k(x), SSIM_TAP_##k(y))
     TAP(m5, 5), TAP(m4, 4), TAP(m3, 3), TAP(m2, 2), TAP(m1, 1), TAP(0, 0);
     TAP(p1, 1), TAP(p2, 2), TAP(p3, 3), TAP(p4, 4), TAP(p5, 5);
@@ -50,14 +49,13 @@ static void blur_row(const float *w, SsimRow x, SsimRow y, Moments *out) {
 // Eleven rows blurred along y.
 static void blur_column(const float *w, const Moments *rows, Moments *out) {
     Moments sum;
-    sum.x = sum.y = sum.xx = sum.yy = sum.xy = (float16)(0.0f);
+    sum.x = sum.y = sum.squares = sum.xy = (float16)(0.0f);
 #pragma unroll
     for (int k = 0; k < TAPS; k++) {
         const float weight = w[abs(k - SSIM_RADIUS)];
         sum.x = fma(weight, rows[k].x, sum.x);
         sum.y = fma(weight, rows[k].y, sum.y);
-        sum.xx = fma(weight, rows[k].xx, sum.xx);
-        sum.yy = fma(weight, rows[k].yy, sum.yy);
+        sum.squares = fma(weight, rows[k].squares, sum.squares);
         sum.xy = fma(weight, rows[k].xy, sum.xy);
     }
     *out = sum;
@@ -69,7 +67,7 @@ static float16 ssim_at(Moments m, float16 *d_x, float16 *d_xx, float16 *d_xy) {
     const float16 light = fma(2.0f * mx, my, (float16)(SSIM_C1));
     const float16 structure = fma((float16)(2.0f), fma(-m.x, m.y, m.xy), (float16)(SSIM_C2));
     const float16 over_light = 1.0f / fma(mx, mx, fma(my, my, (float16)(SSIM_C1)));
-    const float16 over_structure = 1.0f / (fma(-m.x, m.x, m.xx) + fma(-m.y, m.y, m.yy) + SSIM_C2);
+    const float16 over_structure = 1.0f / (fma(-m.x, m.x, fma(-m.y, m.y, m.squares)) + SSIM_C2);
     const float16 d_light = structure * over_light * over_structure;
     const float16 ssim = light * d_light;
     *d_xx = -ssim * over_structure;
