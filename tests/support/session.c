@@ -123,10 +123,10 @@ void session_drag(double x0, double y0, double x1, double y1) {
 // The file, when it has not changed for a while; owned by the caller.
 static char *settled_bytes(void) {
     char *bytes = NULL;
-    for (int same = 0, tries = 0; same < 4 && tries < 200; tries++) {
+    for (int same = 0, tries = 0; same < 3 && tries < 200; tries++) {
         char *now = NULL;
         size_t size;
-        usleep(100000);
+        usleep(60000);
         if (!file_read(state_path, &now, &size)) continue;
         same = bytes && strcmp(bytes, now) == 0 ? same + 1 : 0;
         mem_free(bytes);
