@@ -23,7 +23,7 @@
 enum { TAPS = 2 * SSIM_RADIUS + 1 };
 
 typedef struct {
-    float16 x, y, squares, xy; // blurred: picture, photo (both less SSIM_SHIFT), x^2 + y^2, of which SSIM needs the sum, x y
+    float16 x, y, squares, xy; // blurred: picture, photo (less SSIM_SHIFT), the sum of their squares, their product
 } Moments;
 
 // Weighted by a distance from the window's centre, added to *sum.
