@@ -314,7 +314,7 @@ static bool print_result(Run *run, bool interrupted) {
     double ms = here ? 1e3 * (clock_seconds() - run->began_s) / here : 0;
     if (!file_sha256(run->folder.model, sha256) || !score(run, true, &e)) return false;
     int splats = trainer_splat_count(run->trainer);
-    bool logged = metrics_log_evaluation(&run->log, done, &e);
+    bool logged = here == 0 || metrics_log_evaluation(&run->log, done, &e); // no new step, no new score
     if (run->options.json) {
         json_t *root =
             json_pack("{sf sf si si sf sf ss sI so sb}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",

@@ -154,8 +154,12 @@ static void resuming_keeps_to_the_options_of_the_run(void **state) {
     r = command_run("train", "--resume", run, "--iterations", "7000",
                     NULL); // 7000 is the default: it is noticed all the same
     command_expect_error(&r, 2, "--iterations 7000", "was begun with 2", NULL);
-    r = command_run("train", "--resume", run, "--iterations", "2", "--quiet", NULL);
+    char before[65], after[65];
+    assert_true(file_sha256(support_path(run, "metrics.jsonl"), before));
+    r = command_run("train", "--resume", run, "--iterations", "2", "--quiet", NULL); // it is done: nothing happens
     command_expect(&r, 0);
+    assert_true(file_sha256(support_path(run, "metrics.jsonl"), after));
+    assert_string_equal(before, after);
 }
 
 static void a_scene_whose_path_is_no_utf8_is_refused_before_anything_is_written(void **state) {

@@ -251,6 +251,18 @@ static void a_number_that_is_not_finite_stops_training_by_name(void **state) {
     StepReport report;
     assert_false(trainer_step(trainer, &report));
     assert_non_null(strstr(fail_text(), "step 1, view view_"));
+    assert_non_null(strstr(fail_text(), "has a gradient or parameter '"));
+    training_state_destroy(&s);
+
+    // What the damage would have spread to has kept its numbers.
+    int splat;
+    GaussianFieldId field;
+    check(trainer_get_state(trainer, &s));
+    assert_false(gaussians_are_finite(&s.model, &splat, &field));
+    assert_int_equal(splat, 7);
+    gaussians_at(&s.model, FIELD_SH0, 7)[1] = 0;
+    assert_true(gaussians_are_finite(&s.model, &splat, &field));
+    assert_true(gaussians_are_finite(&s.m, &splat, &field) && gaussians_are_finite(&s.v, &splat, &field));
     training_state_destroy(&s);
     trainer_destroy(trainer);
     dataset_destroy(&d);
