@@ -111,10 +111,11 @@ void set_style() {
     ImGui::StyleColorsDark(&fresh);
     fresh.WindowRounding = fresh.ChildRounding = 0;
     fresh.WindowBorderSize = fresh.ChildBorderSize = 0;
-    fresh.FrameRounding = fresh.GrabRounding = fresh.PopupRounding = 5;
+    fresh.FrameRounding = fresh.PopupRounding = 5;
+    fresh.GrabRounding = 3;
     fresh.FramePadding = ImVec2(9, 5);
     fresh.ItemSpacing = ImVec2(8, 7);
-    fresh.GrabMinSize = 14;
+    fresh.GrabMinSize = 6; // the number must stay readable behind it
     fresh.ScrollbarSize = 11;
     const struct {
         ImGuiCol_ slot;

@@ -108,10 +108,15 @@ static void draw_handles(const Widget *widget, const Blob *blob, bool hovered) {
         canvas2d_grip(&widget->canvas, blob, grip, arm, at);
         draw_grip(at[0], at[1], grip == hot, grip == GRIP_TURN);
     }
-    canvas2d_grip(&widget->canvas, blob, GRIP_X, arm, at);
-    gui_draw_text(GUI_SMALL, at[0] + 0.5 * gui_em(), at[1] + 0.4 * gui_em(), 0xffffffd0, "σx");
-    canvas2d_grip(&widget->canvas, blob, GRIP_Y, arm, at);
-    gui_draw_text(GUI_SMALL, at[0] + 0.5 * gui_em(), at[1] + 0.4 * gui_em(), 0xffffffd0, "σy");
+    static const struct {
+        Grip grip;
+        const char *name;
+    } axes[] = {{GRIP_X, "σx"}, {GRIP_Y, "σy"}};
+    for (int i = 0; i < 2; i++) { // beside the middle of the axis, away from handles
+        canvas2d_grip(&widget->canvas, blob, axes[i].grip, arm, at);
+        double x = (mean[0] + at[0]) / 2, y = (mean[1] + at[1]) / 2;
+        gui_draw_text(GUI_SMALL, x + 0.3 * gui_em(), y + 0.2 * gui_em(), 0xffffffe0, "%s", axes[i].name);
+    }
 }
 
 static void draw_probe(const Widget *widget) {
