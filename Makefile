@@ -16,9 +16,9 @@ DEMO_ITERATIONS ?= 3000
 # Debian packages: to build, to compute (any vendor's OpenCL driver will do beside PoCL), to test.
 PACKAGES := gcc g++ make \
             libopenimageio-dev ocl-icd-opencl-dev opencl-headers libjansson-dev libpopt-dev libmd-dev zlib1g-dev \
-            libglfw3-dev libgl-dev libimgui-dev \
+            libglfw3-dev libgl-dev libimgui-dev fonts-dejavu-core \
             pocl-opencl-icd \
-            libcmocka-dev libgsl-dev openimageio-tools oclgrind clang-format python3 xvfb xdotool libgl1-mesa-dri
+            libcmocka-dev libgsl-dev openimageio-tools oclgrind clang-format python3 xvfb xauth xdotool libgl1-mesa-dri
 
 # ---- the build ----
 BUILD   := build/$(MODE)
@@ -142,8 +142,8 @@ export INSTALL_PACKAGES
 deps: ## install the Debian packages that are missing
 	@sh -c "$$INSTALL_PACKAGES"
 
-# `make deps all` and `make demo` compile nothing before the packages are there.
-ifneq ($(filter deps demo,$(MAKECMDGOALS)),)
+# `make deps all`, `make demo` and `make widget` compile nothing before the packages are there.
+ifneq ($(filter deps demo widget,$(MAKECMDGOALS)),)
 $(ALL_OBJECTS): | deps
 endif
 
@@ -163,6 +163,10 @@ demo: deps all ## make a sample scene, train on it, show the result
 bench: all ## measure the speed of each stage, and how it grows with the work
 	$(PROGRAM) bench
 	$(PROGRAM) bench --scaling --rounds 5
+
+.PHONY: widget
+widget: deps all ## open the 2-D lesson in a window
+	$(PROGRAM) widget
 
 # ---- to check ----
 # PoCL and LLVM keep some memory until the program ends; tests/long/leaks.txt names them, all else must be freed.
@@ -197,6 +201,8 @@ install: all ## install under PREFIX (/usr/local); DESTDIR is honoured
 	install -D -m 755 $(PROGRAM) $(DESTDIR)$(PREFIX)/bin/splatlab
 	install -d $(DESTDIR)$(PREFIX)/share/splatlab/kernels
 	install -m 644 $(wildcard kernels/*) $(DESTDIR)$(PREFIX)/share/splatlab/kernels
+	install -d $(DESTDIR)$(PREFIX)/share/splatlab/demos
+	install -m 644 $(wildcard lab/app/demos/*) $(DESTDIR)$(PREFIX)/share/splatlab/demos
 	install -D -m 644 LICENSE $(DESTDIR)$(PREFIX)/share/doc/splatlab/LICENSE
 
 .PHONY: uninstall
