@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-// Fills scene->mesh.light; the scene's bvh must be built. quality: the hemisphere is divided into quality x 2 quality parts, 4..16. Shows
+// Fills scene->mesh.light; the scene's bvh must be built. quality: the hemisphere is divided into quality x 2 quality parts, 2..16. Shows
 // progress; fails when the person interrupts it.
 bool ray_light_store(RayScene *scene, int quality, uint64_t seed);
 

@@ -135,7 +135,7 @@ static bool fill_folder(int scene_index, const SampleSceneOptions *o, const char
     Dataset dataset = {.views = mem_alloc((size_t)o->views, sizeof(View))};
     ImageF *depth = mem_alloc((size_t)o->views, sizeof(ImageF));
     build_scene(BUILDERS[scene_index], o, scene, &path);
-    int quality = o->size[0] >= 512 ? 8 : o->size[0] >= 256 ? 6 : 4;
+    int quality = o->size[0] >= 512 ? 8 : o->size[0] >= 256 ? 6 : o->size[0] >= 128 ? 4 : 2;
     bool ok = ray_light_store(scene, quality, o->seed) && render_views(scene, &path, o, folder, &dataset, depth);
     if (ok) {
         dataset.points = scene_points_find(dataset.views, depth, o->views, o->seed);

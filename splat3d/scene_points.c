@@ -7,17 +7,17 @@
 #include <string.h>
 
 enum {
-    CELLS_ACROSS = 44, // the picture is divided into cells; each gives at most one corner and takes at most one point
+    CELLS_ACROSS = 36, // the picture is divided into cells; each gives at most one corner and takes at most one point
     CELL_MIN_PX = 4,
     WINDOW_PX = 2, // half width of the window in which a corner must show
 };
 
-static const double CORNER_MIN = 40;        // smaller eigenvalue of the mean gradient tensor, (8-bit steps / px)^2
-static const double SAME_DEPTH = 0.01;      // two views see the same place when depths agree to this part
-static const double ANGLE_COSINE_MIN = 0.8; // a place seen from a more different direction is not recognised
-static const double RECOGNISED = 0.75;      // chance that a view that sees a place also finds it
-static const double CORNER_ERROR_PX = 0.5;  // standard deviation of where a corner is found
-static const double DEPTH_ERROR_MAX = 0.05; // of the depth; less certain points are thrown away
+static const double CORNER_MIN = 40;         // smaller eigenvalue of the mean gradient tensor, (8-bit steps / px)^2
+static const double SAME_DEPTH = 0.01;       // two views see the same place when depths agree to this part
+static const double ANGLE_COSINE_MIN = 0.64; // a place seen from a more different direction is not recognised
+static const double RECOGNISED = 0.75;       // chance that a view that sees a place also finds it
+static const double CORNER_ERROR_PX = 0.5;   // standard deviation of where a corner is found
+static const double DEPTH_ERROR_MAX = 0.05;  // of the depth; less certain points are thrown away
 
 typedef struct {
     int x, y; // px; x < 0: the cell has no corner
@@ -73,6 +73,20 @@ static void find_corners(void *context, int index) {
     }
 }
 
+// Depth between the centres of four pixels: 1 / z is linear on a plane. 0 at the border and beside the sky.
+static double depth_between(const Search *s, int view, double x_px, double y_px) {
+    const Camera *camera = &s->views[view].camera;
+    double fx = floor(x_px - 0.5), fy = floor(y_px - 0.5), u = x_px - 0.5 - fx, v = y_px - 0.5 - fy, inverse = 0;
+    int x = (int)fx, y = (int)fy;
+    if (x < 0 || y < 0 || x + 1 >= camera->width || y + 1 >= camera->height) return 0;
+    for (int k = 0; k < 4; k++) {
+        double depth = depth_at(s, view, x + (k & 1), y + (k >> 1));
+        if (depth <= 0) return 0;
+        inverse += (k & 1 ? u : 1 - u) * (k >> 1 ? v : 1 - v) / depth;
+    }
+    return 1 / inverse;
+}
+
 // Where a point falls in a view: false when it is outside, hidden, or in the sky.
 static bool seen_in(const Search *s, int view, Vec3 point, int *x, int *y) {
     double x_px, y_px, depth;
@@ -80,7 +94,8 @@ static bool seen_in(const Search *s, int view, Vec3 point, int *x, int *y) {
     if (!camera_project(camera, point, &x_px, &y_px, &depth)) return false;
     if (!(x_px >= 0 && y_px >= 0 && x_px < camera->width && y_px < camera->height)) return false;
     *x = (int)x_px, *y = (int)y_px;
-    return fabs(depth_at(s, view, *x, *y) - depth) < SAME_DEPTH * depth;
+    return fabs(depth_at(s, view, *x, *y) - depth) < SAME_DEPTH * depth ||
+           fabs(depth_between(s, view, x_px, y_px) - depth) < SAME_DEPTH * depth;
 }
 
 static bool *cell_of(const Search *s, int view, int x, int y) {
