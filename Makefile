@@ -159,6 +159,10 @@ demo: deps all ## make a sample scene, train on it, show the result
 	$(PROGRAM) eval demo/run --scene $(DEMO_DATA) --contact-sheet demo/contact_sheet.png
 	@echo "Photo, render and error of held-out views: $(CURDIR)/demo/contact_sheet.png"
 
+.PHONY: figures
+figures: all ## draw the pictures of the lesson pages in docs/ again
+	SPLATLAB=$(PROGRAM) docs/figures/draw docs/images
+
 .PHONY: bench
 bench: all ## measure the speed of each stage, and how it grows with the work
 	$(PROGRAM) bench
