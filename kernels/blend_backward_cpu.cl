@@ -152,6 +152,12 @@ __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *s
     const PairGradient nothing = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     for (int index = deepest; index < count; index++) records[list_slot[begin + index]] = nothing;
 
+    float16 x[BLOCKS_PER_ROW], y[BLOCKS_PER_ROW]; // pixel centres of each column and row of blocks
+    for (int k = 0; k < BLOCKS_PER_ROW; k++) {
+        x[k] = block_x(tile_x, k);
+        y[k] = block_y(tile_y, k * BLOCKS_PER_ROW);
+    }
+
     uint begun = 0; // the blocks that have anything to do here
     int next = deepest;
     for (int index = deepest - 1; index >= 0; index--) {
@@ -165,7 +171,7 @@ __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *s
         sums.w = sums.wu = sums.wv = sums.wuu = sums.wuv = sums.wvv = sums.r = sums.g = sums.b = (float16)(0);
         for (uint bits = list_mask[begin + index] & begun; bits; bits &= bits - 1) {
             const int block = 31 - (int)clz(bits & -bits);
-            unblend_block(frame.alpha_max, &splat, index, block_x(tile_x, block), block_y(tile_y, block),
+            unblend_block(frame.alpha_max, &splat, index, x[block % BLOCKS_PER_ROW], y[block / BLOCKS_PER_ROW],
                           &states[block], &sums);
         }
         store_record(&sums, records + list_slot[begin + index]);
