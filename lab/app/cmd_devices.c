@@ -13,10 +13,7 @@ typedef struct {
 
 static const Options DEFAULTS = {0};
 static const OptionField FIELDS[] = {
-    {.name = "json",
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, json),
-     .help = "the list as one JSON document on stdout"},
+    {OPTION_JSON_OF(Options, "the list")},
 };
 static const OptionTable TABLE = {FIELDS, sizeof FIELDS / sizeof FIELDS[0], &DEFAULTS};
 

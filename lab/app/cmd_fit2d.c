@@ -47,15 +47,8 @@ static const OptionField COMMAND_FIELDS[] = {
      .high = SCENE2D_SIDE_MAX,
      .unit = "px",
      .help = "make the photograph smaller until it fits into WxH; 0x0: as it is"},
-    {.name = "json",
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, json),
-     .help = "the result as one JSON document on stdout"},
-    {.name = "quiet",
-     .letter = 'q',
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, quiet),
-     .help = "no progress, only warnings and errors"},
+    {OPTION_JSON_OF(Options, "the result")},
+    {OPTION_QUIET_OF(Options)},
 };
 
 enum {

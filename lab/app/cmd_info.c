@@ -43,10 +43,7 @@ static const OptionField FIELDS[] = {
      .type = OPTION_FLAG,
      .offset = offsetof(Options, quiet),
      .help = "only warnings and errors on stderr"},
-    {.name = "json",
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, json),
-     .help = "the facts as one JSON document on stdout"},
+    {OPTION_JSON_OF(Options, "the facts")},
 };
 
 // Adds what training takes: the whole table with --memory, else only the sum.

@@ -59,15 +59,8 @@ static const OptionField FIELDS[] = {
      .type = OPTION_TEXT,
      .offset = offsetof(Options, background),
      .help = "white, black or r,g,b in 0..1; a run brings its own"},
-    {.name = "json",
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, json),
-     .help = "the list of files as one JSON document on stdout"},
-    {.name = "quiet",
-     .letter = 'q',
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, quiet),
-     .help = "no progress, only warnings and errors"},
+    {OPTION_JSON_OF(Options, "the list of files")},
+    {OPTION_QUIET_OF(Options)},
     {.name = "scene",
      .type = OPTION_TEXT,
      .offset = offsetof(Options, scene),
@@ -114,14 +107,8 @@ static const OptionField FIELDS[] = {
      .help =
          "is the splat that makes a pixel opaque still blended: after it (ours), or stopped before it (the original "
          "program's rule; only with --reference)"},
-    {.name = "device",
-     .type = OPTION_TEXT,
-     .offset = offsetof(Options, device),
-     .help = "auto, cpu, gpu, a number or a part of a name of `splatlab devices`"},
-    {.name = "kernels",
-     .type = OPTION_TEXT,
-     .offset = offsetof(Options, kernels),
-     .help = "folder of the OpenCL kernels, when not those beside the program"},
+    {OPTION_DEVICE_OF(Options)},
+    {OPTION_KERNELS_OF(Options)},
 };
 
 static const char *const ENDINGS[] = {".png", ".exr", ".jpg", NULL};

@@ -42,15 +42,8 @@ static const OptionField FIELDS[] = {
      .low = 0,
      .high = 1.8e19,
      .help = "of layout, camera path and noise; the same seed gives the same files"},
-    {.name = "quiet",
-     .letter = 'q',
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, quiet),
-     .help = "no progress, only warnings and errors"},
-    {.name = "json",
-     .type = OPTION_FLAG,
-     .offset = offsetof(Options, json),
-     .help = "the result as one JSON document on stdout"},
+    {OPTION_QUIET_OF(Options)},
+    {OPTION_JSON_OF(Options, "the result")},
 };
 
 // "studio, fence, courtyard"

@@ -6,6 +6,20 @@
 
 #include <stdbool.h>
 
+// The options that many commands have, as the beginning of a field of their tables: T is the command's options struct, with
+// members of these names. `{OPTION_DEVICE_OF(Options), .section = "Device"}`.
+#define OPTION_DEVICE_OF(T)                                                                                            \
+    .name = "device", .type = OPTION_TEXT, .offset = offsetof(T, device),                                              \
+    .help = "auto, cpu, gpu, a number or a part of a name of `splatlab devices`"
+#define OPTION_KERNELS_OF(T)                                                                                           \
+    .name = "kernels", .type = OPTION_TEXT, .offset = offsetof(T, kernels),                                            \
+    .help = "folder of the OpenCL kernels, when not those beside the program"
+#define OPTION_QUIET_OF(T)                                                                                             \
+    .name = "quiet", .letter = 'q', .type = OPTION_FLAG, .offset = offsetof(T, quiet),                                 \
+    .help = "no progress, only warnings and errors"
+#define OPTION_JSON_OF(T, WHAT)                                                                                        \
+    .name = "json", .type = OPTION_FLAG, .offset = offsetof(T, json), .help = WHAT " as one JSON document on stdout"
+
 typedef struct {
     const char *name;                  // "train"
     const char *arguments;             // "SCENE -o RUN"; as --help shows it
