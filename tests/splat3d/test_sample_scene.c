@@ -193,12 +193,13 @@ static void points_lie_near_surfaces_but_for_a_few_outliers(void **state) {
         points += l.dataset.points.count;
         for (int k = 0; k < l.dataset.points.count; k++) {
             const double *p = l.dataset.points.xyz + 3 * k;
-            off += nearest_surface(&l, vec3(p[0], p[1], p[2])) > 0.05;
+            off += nearest_surface(&l, vec3(p[0], p[1], p[2])) > 0.15;
         }
         unload(&l);
     }
     double part = (double)off / points;
-    if (part < 0.002 || part > 0.05) fail_msg("%d of %d points are off every surface", off, points);
+    if (part < 0.003 || part > 0.04) fail_msg("%d of %d points are off every surface", off, points);
+    print_message("%d of %d points are off every surface\n", off, points);
 }
 
 static void points_are_noisy(void **state) {
