@@ -7,6 +7,10 @@
 MODE   ?= release
 PREFIX ?= /usr/local
 
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(shell nproc)
+endif
+
 # What `make demo` does: about two minutes on two cores.
 DEMO_SCENE      ?= studio
 DEMO_SIZE       ?= 400x300
@@ -156,8 +160,9 @@ demo: deps all ## make a sample scene, train on it, show the result
 	    $(PROGRAM) scene $(DEMO_SCENE) -o $(DEMO_DATA) --size $(DEMO_SIZE) --views $(DEMO_VIEWS)
 	@rm -rf demo/run
 	$(PROGRAM) train $(DEMO_DATA) -o demo/run --iterations $(DEMO_ITERATIONS)
-	$(PROGRAM) eval demo/run --scene $(DEMO_DATA) --contact-sheet demo/contact_sheet.png
+	@$(PROGRAM) eval demo/run --contact-sheet demo/contact_sheet.png >demo/report.txt && cat demo/report.txt
 	@echo "Photo, render and error of held-out views: $(CURDIR)/demo/contact_sheet.png"
+	@[ -z "$$DISPLAY$$WAYLAND_DISPLAY" ] || ! command -v xdg-open >/dev/null || xdg-open demo/contact_sheet.png
 
 .PHONY: figures
 figures: all ## draw the pictures of the lesson pages in docs/ again
