@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum {
-    CELLS_ACROSS = 36, // the picture is divided into cells; each gives at most one corner and takes at most one point
+    CELLS_ACROSS = 30, // the picture is divided into cells; each gives at most one corner and takes at most one point
     CELL_MIN_PX = 4,
     WINDOW_PX = 2, // half width of the window in which a corner must show
 };
