@@ -168,6 +168,8 @@ void gui_open(Window *window, double scale) {
     ImGuiIO &io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
+    // A draw list may outgrow 16-bit indices: OpenGL 3.3 and gui_frame_paint() both take an offset to its vertices.
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     if (window) {
         ImGui_ImplGlfw_InitForOpenGL(window_handle(window), true);
         ImGui_ImplOpenGL3_Init("#version 330 core");
