@@ -200,6 +200,17 @@ static void the_arrows_step_and_g_films(void **state) {
     assert_int_equal(session_end(), 0);
 }
 
+// Its lines need more vertices than sixteen bits count.
+static void a_walk_of_two_thousand_steps_is_drawn(void **state) {
+    (void)state;
+    const char *path = support_path(support_scratch(), "long_walk.json");
+    static const char text[] =
+        "{\"title\": \"x\", \"steps\": [{\"caption\": \"a\", \"page\": \"psd\", \"rate\": 0.04, \"walk\": 2000}]}";
+    assert_true(file_write(path, text, strlen(text)));
+    CommandResult r = command_run("demo", path, "--headless", "-o", support_scratch(), NULL);
+    command_expect(&r, 0);
+}
+
 static void broken_files_are_named(void **state) {
     (void)state;
     static const struct {
@@ -248,6 +259,7 @@ int main(void) {
         cmocka_unit_test(what_is_seen_through_follows_the_opacity),
         cmocka_unit_test(a_step_looks_the_same_from_both_sides),
         cmocka_unit_test(the_arrows_step_and_g_films),
+        cmocka_unit_test(a_walk_of_two_thousand_steps_is_drawn),
         cmocka_unit_test(broken_files_are_named),
         cmocka_unit_test(wrong_usage_ends_with_exit_code_2),
     };
