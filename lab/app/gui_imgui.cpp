@@ -1,8 +1,9 @@
 // gui_imgui.cpp - gui.h by Dear ImGui 1.86 with its GLFW and OpenGL 3 back ends; headless by paint.h.
 extern "C" {
 #include "lab/app/window.h"
-#include "lab/base/log.h"
+#include "lab/base/mem.h"
 }
+#include "lab/app/font_files.h"
 #include "lab/app/gui.h"
 #include "lab/app/paint.h"
 
@@ -16,7 +17,6 @@ extern "C" {
 #include <cstdio>
 #include <cstring>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -48,44 +48,22 @@ struct FontFile {
 const FontFile FONT_FILES[GUI_STYLE_COUNT] = {{"DejaVuSans.ttf", 1},     {"DejaVuSans-Bold.ttf", 1},
                                               {"DejaVuSans.ttf", 1.5},   {"DejaVuSans.ttf", 0.84},
                                               {"DejaVuSansMono.ttf", 1}, {"DejaVuSansMono.ttf", 0.84}};
-const char *const FONT_FOLDERS[] = {"/usr/share/fonts/truetype/dejavu",
-                                    "/usr/share/fonts/dejavu-sans-fonts",
-                                    "/usr/share/fonts/dejavu-sans-mono-fonts",
-                                    "/usr/share/fonts/TTF",
-                                    "/usr/share/fonts/dejavu",
-                                    "/usr/local/share/fonts",
-                                    "/Library/Fonts"};
-
 // Latin, Greek, sub- and superscripts, punctuation with primes, arrows, mathematical signs, simple shapes.
 const ImWchar GLYPHS[] = {0x20,   0xff,   0x1d40, 0x1d40, 0x370,  0x3ff,  0x2010, 0x2040, 0x2070, 0x209f,
                           0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0x2713, 0x2717, 0};
 
-std::string font_path(const char *name) {
-    for (const char *folder : FONT_FOLDERS) {
-        std::string path = std::string(folder) + "/" + name;
-        if (access(path.c_str(), R_OK) == 0) return path;
-    }
-    return "";
-}
-
 // The glyphs of all styles at the wanted size. Without the font files there is the library's own font, which has no Greek.
 void load_fonts() {
-    static bool warned = false;
     ImFontAtlas *atlas = ImGui::GetIO().Fonts;
     gui.scale = gui.wanted_scale;
     atlas->Clear();
     for (int style = 0; style < GUI_STYLE_COUNT; style++) {
         float size = std::round(static_cast<float>(BODY_PX * FONT_FILES[style].size * gui.scale));
-        std::string path = font_path(FONT_FILES[style].name);
+        char *path = font_file_find(FONT_FILES[style].name);
         ImFontConfig own;
         own.SizePixels = size;
-        gui.fonts[style] =
-            path.empty() ? atlas->AddFontDefault(&own) : atlas->AddFontFromFileTTF(path.c_str(), size, nullptr, GLYPHS);
-        if (path.empty() && !warned)
-            log_warn("the font %s is not installed (Debian: fonts-dejavu-core); texts will miss "
-                     "their Greek letters",
-                     FONT_FILES[style].name);
-        warned = warned || path.empty();
+        gui.fonts[style] = path ? atlas->AddFontFromFileTTF(path, size, nullptr, GLYPHS) : atlas->AddFontDefault(&own);
+        mem_free(path);
     }
     atlas->Build();
     if (gui.window) {
