@@ -64,6 +64,8 @@ bool gui_is_holding(void); // a mouse button or a key is down, or a control is b
 
 // A rectangle of the screen with controls in it, from top to bottom. padding: inside, ems.
 void gui_panel_begin(const char *name, GuiRect place, GuiColour background, double padding);
+// The same above all panels; ends with gui_panel_end() too. takes_mouse: else what lies below gets the mouse.
+void gui_overlay_begin(const char *name, GuiRect place, GuiColour background, double padding, bool takes_mouse);
 void gui_panel_end(void);
 double gui_width_left(void);                   // to the panel's right edge, from the left one or behind gui_same_line()
 GuiRect gui_take(double width, double height); // keeps a place free for drawing, as if it were a control

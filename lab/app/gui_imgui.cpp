@@ -265,18 +265,26 @@ bool gui_is_holding(void) {
 
 // ---- where controls go ----
 
-void gui_panel_begin(const char *name, GuiRect place, GuiColour background, double padding) {
+static void begin_window(const char *name, GuiRect place, GuiColour background, double padding, int flags) {
     ImGui::SetNextWindowPos(vec2(place.x, place.y));
     ImGui::SetNextWindowSize(vec2(place.width, place.height));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, vec4(background));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, vec2(padding * gui_em(), padding * gui_em()));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+                 flags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor();
+}
+
+// The flag also puts it below all windows without it.
+void gui_panel_begin(const char *name, GuiRect place, GuiColour background, double padding) {
+    begin_window(name, place, background, padding, ImGuiWindowFlags_NoBringToFrontOnFocus);
+}
+
+void gui_overlay_begin(const char *name, GuiRect place, GuiColour background, double padding, bool takes_mouse) {
+    begin_window(name, place, background, padding, takes_mouse ? 0 : ImGuiWindowFlags_NoInputs);
 }
 
 void gui_panel_end(void) { ImGui::End(); }

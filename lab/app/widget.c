@@ -73,7 +73,7 @@ static void show_note(Widget *widget, GuiRect canvas) {
     if (!widget->note[0] || clock_seconds() > widget->note_until_s) return;
     double em = gui_em(), width = gui_text_width(GUI_BODY, widget->note) + 2 * em;
     GuiRect box = {canvas.x + (canvas.width - width) / 2, canvas.y + canvas.height - 3.2 * em, width, 2.2 * em};
-    gui_panel_begin("note", box, CARD, 0);
+    gui_overlay_begin("note", box, CARD, 0, false);
     gui_draw_text(GUI_BODY, box.x + em, box.y + 0.6 * em, widget->note_is_bad ? BAD : INK, "%s", widget->note);
     gui_panel_end();
 }

@@ -30,13 +30,13 @@ static const struct {
 enum { LINE_COUNT = sizeof LINES / sizeof LINES[0] };
 
 void widget_help(Widget *widget) {
-    (void)widget;
+    if (gui_mouse().pressed[GUI_LEFT]) widget->shows_help = false;
     double em = gui_em(), width = 38 * em, height = (1.5 * LINE_COUNT + 5.5) * em;
     GuiRect whole = gui_screen();
-    gui_panel_begin("dim", whole, 0x000000a0, 0);
+    gui_overlay_begin("dim", whole, 0x000000b0, 0, true);
     gui_panel_end();
     GuiRect box = {(whole.width - width) / 2, (whole.height - height) / 2, width, height};
-    gui_panel_begin("help", box, CARD, 1.6);
+    gui_overlay_begin("help", box, CARD, 1.6, true);
     gui_text(GUI_TITLE, INK, "Mouse and keys");
     gui_gap(0.2);
     for (int i = 0; i < LINE_COUNT; i++) {

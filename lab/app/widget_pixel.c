@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { COLUMN_COUNT = 7 };
+enum { COLUMN_COUNT = 7, SHORT_LIST = 12 /* blobs: so many are all shown, of more those that the pixel blends */ };
 static const char *const COLUMNS[COLUMN_COUNT] = {"blob", "depth", "g", "α′", "T before", "T α′", "so far"};
 // Where each column ends, in ems from the left; numbers stand at the right of their column.
 static const double COLUMN_ENDS[COLUMN_COUNT] = {3.2, 7.2, 11.4, 15.6, 20.6, 25.2, 29.4};
@@ -19,6 +19,10 @@ static void walk(Widget *widget) {
     }
     raster2d_load(&widget->raster, &widget->scene, view2d_whole());
     widget->walked = pixel_walk(&widget->raster, &widget->settings, widget->probe[0], widget->probe[1], widget->walk);
+}
+
+static bool is_shown(const Widget *widget, const WalkStep *step) {
+    return widget->scene.count <= SHORT_LIST || step->kind == STEP_BLENDED;
 }
 
 static void cell(GuiRect row, int column, GuiColour colour, const char *text) {
@@ -71,7 +75,15 @@ static void table(const Widget *widget, GuiRect place) {
         double end = head.x + COLUMN_ENDS[i] * em - gui_text_width(GUI_SMALL, COLUMNS[i]);
         gui_draw_text(GUI_SMALL, end, head.y, INK_QUIET, "%s", COLUMNS[i]);
     }
-    for (int i = 0; i < widget->scene.count; i++) step_row(widget, &widget->walk[i]);
+    int shown = 0;
+    for (int i = 0; i < widget->scene.count; i++) {
+        if (!is_shown(widget, &widget->walk[i])) continue;
+        step_row(widget, &widget->walk[i]);
+        shown++;
+    }
+    if (shown < widget->scene.count)
+        gui_text(GUI_SMALL, INK_FAINT, "%d others do not reach it, or lie behind where it is opaque",
+                 widget->scene.count - shown);
     gui_panel_end();
 }
 
@@ -94,13 +106,12 @@ static void plot_axes(GuiRect box) {
 
 // One column a blob, front to back: T before it as the upper edge, the part that it takes away (its weight) in its colour.
 static void plot_steps(const Widget *widget, GuiRect box) {
-    int count = widget->scene.count, most = 0;
-    for (int i = 0; i < count; i++) // what lies behind the last blended blob is a flat line
-        if (widget->walk[i].kind == STEP_BLENDED) most = i + 1;
-    most = most < 6 ? (count < 6 ? count : 6) : most;
-    double column = box.width / (most + 1), x = box.x, level = 1;
-    for (int i = 0; i < most; i++, x += column) {
+    int columns = 0;
+    for (int i = 0; i < widget->scene.count; i++) columns += is_shown(widget, &widget->walk[i]);
+    double column = box.width / (columns + 1), x = box.x, level = 1;
+    for (int i = 0; i < widget->scene.count; i++) {
         const WalkStep *step = &widget->walk[i];
+        if (!is_shown(widget, step)) continue;
         double after = level - step->weight, y = level_y(box, level), y_after = level_y(box, after);
         const double *rgb = widget->scene.blobs[step->index].rgb;
         gui_draw_rect((GuiRect){x + 1, y, column - 1, y_after - y}, colour_of(rgb, 0.95), 0);
@@ -108,6 +119,7 @@ static void plot_steps(const Widget *widget, GuiRect box) {
         gui_draw_line(x, y, x + column, y, INK, 1.5);
         gui_draw_line(x + column, y, x + column, y_after, INK, 1.5);
         level = after;
+        x += column;
     }
     double y = level_y(box, level);
     gui_draw_rect((GuiRect){x + 1, y, box.x + box.width - x - 1, box.y + box.height - y},
