@@ -1,5 +1,6 @@
 // test_cmd_fit2d.c - `splatlab fit2d` as a person calls it.
 #include "lab/base/fail.h"
+#include "lab/base/mem.h"
 #include "lab/io/file.h"
 #include "lab/io/image_io.h"
 #include "splat2d/loss.h"
@@ -151,8 +152,11 @@ static void ctrl_c_saves_and_ends_well(void **state) {
     size_t size = 0;
     for (int i = 0; i < 100 && size == 0; i++) {
         usleep(100000);
+        mem_free(text);
+        text = NULL;
         if (file_exists(err) && !file_read(err, &text, &size)) fail_msg("%s", fail_text());
     }
+    mem_free(text);
     usleep(300000);
     kill(child, SIGINT);
     int status;
@@ -160,6 +164,7 @@ static void ctrl_c_saves_and_ends_well(void **state) {
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_msg("ended with status %#x", status);
     assert_true(file_read(err, &text, &size));
     assert_non_null(strstr(text, "saved"));
+    mem_free(text);
     Scene2d scene;
     if (!scene2d_load(support_path(out, "fit.json"), &scene)) fail_msg("%s", fail_text());
     assert_int_equal(scene.count, 20);
