@@ -50,10 +50,16 @@ LIBRARIES := -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz
              -limgui -lstb -lglfw -lGL -lstdc++ -lm
 TEST_LIBRARIES := -lcmocka -lgsl -lgslcblas
 
+# exercises/01_cov2/ -> exercises/01_cov2/cov2.c
+exercise_file = $(1)$(shell basename $(1) | sed 's/^[0-9]*_//').c
 objects_of = $(patsubst %,$(BUILD)/%.o,$(1))
 
+# The worker runs what students write: a small program of its own, never with a sanitizer, which its limits would not bear.
+WORKER_SOURCES := exercises/harness/worker.c exercises/harness/worker_guard.c
+WORKER         := $(BUILD)/splatlab-worker
+
 SOURCES := $(wildcard lab/base/*.c lab/io/*.c lab/io/*.cpp lab/gpu/*.c splat2d/*.c splat3d/*.c \
-           lab/app/*.c lab/app/*.cpp)
+           exercises/*/check.c lab/app/*.c lab/app/*.cpp) $(filter-out $(WORKER_SOURCES),$(wildcard exercises/harness/*.c))
 OBJECTS := $(call objects_of,$(SOURCES))
 
 # tests/FOLDER/test_NAME.c: one cmocka program each; helpers stand in tests/support.
@@ -62,18 +68,29 @@ TESTS           := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 SUPPORT_SOURCES := $(wildcard tests/support/*.c)
 KERNELS_COMPILE := $(BUILD)/tests/lint/kernels_compile
 
-ALL_SOURCES := $(SOURCES) $(TEST_SOURCES) $(SUPPORT_SOURCES) tests/lint/kernels_compile.c
+ALL_SOURCES := $(SOURCES) $(WORKER_SOURCES) $(TEST_SOURCES) $(SUPPORT_SOURCES) tests/lint/kernels_compile.c
 ALL_OBJECTS := $(call objects_of,$(ALL_SOURCES))
 
 .PHONY: all
-all: $(PROGRAM) compile_commands.json ## build ./splatlab
+all: $(PROGRAM) $(WORKER) compile_commands.json ## build ./splatlab
 
 $(PROGRAM): $(OBJECTS)
 	$(LINK) $(LIBRARIES)
 
+WORKER_OBJECTS := $(call objects_of,$(WORKER_SOURCES))
+$(WORKER_OBJECTS): OBJECT_FLAGS := -fno-sanitize=all
+$(WORKER): $(WORKER_OBJECTS)
+	$(SAY) "LINK $@"; $(CC) -rdynamic -o $@ $^ -lm
+
+# A person's files, laid out from the stubs; never overwritten.
+EXERCISE_FILES := $(foreach stub,$(wildcard exercises/*/stub.c),$(call exercise_file,$(dir $(stub))))
+all: $(EXERCISE_FILES)
+$(EXERCISE_FILES):
+	@cp -n $(@D)/stub.c $@
+
 $(BUILD)/%.c.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(SAY) "CC   $<"; $(CC) $(C_FLAGS) -MMD -MP -c -o $@ $<
+	$(SAY) "CC   $<"; $(CC) $(C_FLAGS) $(OBJECT_FLAGS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/%.cpp.o: %.cpp $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -84,6 +101,8 @@ define archive_of
 $(BUILD)/$(1).a: $(call objects_of,$(wildcard $(1)/*.c $(1)/*.cpp))
 	@rm -f $$@; $(AR) rcs $$@ $$^
 endef
+$(BUILD)/exercises.a: $(call objects_of,$(filter exercises/%,$(SOURCES)))
+	@rm -f $@; $(AR) rcs $@ $^
 $(foreach folder,lab/base lab/io lab/gpu splat2d splat3d lab/app tests/support,$(eval $(call archive_of,$(folder))))
 
 # The tests of a floor are linked with that floor and what it may use, highest first; this proves that it uses no more.
@@ -98,7 +117,8 @@ $(eval $(call tests_of,gpu,lab/gpu lab/base,$(TEST_LIBRARIES) -lOpenCL))
 # Of lab/io only JSON files: a picture or a device drawn in by splat2d would lack its library here.
 $(eval $(call tests_of,splat2d,splat2d lab/io lab/base,$(TEST_LIBRARIES) -ljansson -lmd))
 $(eval $(call tests_of,splat3d,splat3d splat2d lab/gpu lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
-$(eval $(call tests_of,app,lab/app splat3d splat2d lab/gpu lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
+$(eval $(call tests_of,exercises,exercises splat3d splat2d lab/gpu lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
+$(eval $(call tests_of,app,lab/app exercises splat3d splat2d lab/gpu lab/io lab/base,$(TEST_LIBRARIES) $(LIBRARIES)))
 $(eval $(call tests_of,lint,lab/gpu lab/io lab/base,$(LIBRARIES)))
 
 # Other flags (or another PREFIX) than last time: everything is built anew.
@@ -197,8 +217,9 @@ test-long: all ## what takes longer: Oclgrind, resume, thread count, then all te
 lint: $(KERNELS_COMPILE) ## check the house rules: floors, sizes, names, format; kernels compile
 	@status=0; python3 tests/lint/lint.py || status=1; $(KERNELS_COMPILE) || status=1; exit $$status
 
-FORMATTED := $(wildcard $(foreach folder,kernels lab/* splat2d splat3d exercises/* tests/*,\
-                 $(folder)/*.c $(folder)/*.h $(folder)/*.cpp $(folder)/*.cl))
+FORMATTED := $(filter-out $(EXERCISE_FILES),$(wildcard $(foreach folder,kernels lab/* splat2d splat3d \
+                 exercises exercises/* exercises/*/mutants tests/*,\
+                 $(folder)/*.c $(folder)/*.h $(folder)/*.cpp $(folder)/*.cl)))
 
 .PHONY: format
 format: ## bring all code into the form of .clang-format

@@ -1,0 +1,11 @@
+// off_diagonal_sum.c - xy has the sum of the squares where it needs their difference: a round blob has no preferred direction, so
+// its xy must vanish.
+#include "exercises/exercise.h"
+
+void cov2_from_rs(REAL theta, REAL sx, REAL sy, REAL S[3]) {
+    REAL c = cos(theta), s = sin(theta);
+    REAL x2 = sx * sx, y2 = sy * sy;
+    S[0] = c * c * x2 + s * s * y2;
+    S[1] = c * s * (x2 + y2);
+    S[2] = s * s * x2 + c * c * y2;
+}

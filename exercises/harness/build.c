@@ -1,0 +1,186 @@
+// build.c - the compiler as a child process; results lie in the cache folder under the hash of all they were made from.
+#include "exercises/harness/build.h"
+
+#include "lab/base/fail.h"
+#include "lab/base/mem.h"
+#include "lab/base/parallel.h"
+#include "lab/io/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sha256.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+const char *const PRECISION_NAMES[PRECISION_COUNT] = {"float", "double"};
+
+enum { KEEP_DAYS = 3, FLAG_COUNT = 9 };
+static const char *const FLAGS[FLAG_COUNT] = {
+    "-std=c17", "-O1", "-g", "-fPIC", "-shared", "-Wall", "-Wextra", "-D_GNU_SOURCE", "-ffp-contract=off"};
+
+// "$XDG_CACHE_HOME/splatlab/exercises", made when it is not there; owned by the caller.
+static bool cache_folder(char **folder) {
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME"), *scratch = getenv("TMPDIR");
+    if (cache && cache[0])
+        *folder = mem_format("%s/splatlab/exercises", cache);
+    else if (home && home[0])
+        *folder = mem_format("%s/.cache/splatlab/exercises", home);
+    else
+        *folder = mem_format("%s/splatlab-%u/exercises", scratch && scratch[0] ? scratch : "/tmp", (unsigned)getuid());
+    if (file_make_folder(*folder) && file_can_write_in(*folder)) return true;
+    mem_free(*folder);
+    *folder = NULL;
+    return fail_context("compiled exercises are kept there; set XDG_CACHE_HOME to a folder that can be written");
+}
+
+// What was built of texts that have long changed.
+static void remove_old(const char *folder) {
+    char **names;
+    int count;
+    if (!file_list(folder, &names, &count)) return;
+    for (int i = 0; i < count; i++) {
+        char *path = file_join(folder, names[i]);
+        struct stat entry;
+        if (stat(path, &entry) == 0 && time(NULL) - entry.st_mtime > KEEP_DAYS * 86400) unlink(path);
+        mem_free(path);
+    }
+    file_list_free(names, count);
+}
+
+static bool hash_file(SHA2_CTX *hash, const char *path) {
+    char *text;
+    size_t size;
+    if (!file_read(path, &text, &size)) return false;
+    SHA256Update(hash, (const uint8_t *)text, size + 1);
+    mem_free(text);
+    return true;
+}
+
+static bool hash_folder(SHA2_CTX *hash, const char *folder) {
+    char **names;
+    int count;
+    if (!file_list(folder, &names, &count)) return false;
+    bool good = true;
+    for (int i = 0; good && i < count; i++) {
+        char *path = file_join(folder, names[i]);
+        good = !file_has_ending(names[i], ".c") || hash_file(hash, path);
+        mem_free(path);
+    }
+    file_list_free(names, count);
+    return good;
+}
+
+// Everything that the result depends on: the texts (wrong variants include our solutions), the compiler and its flags.
+static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_DIGEST_STRING_LENGTH]) {
+    SHA2_CTX hash;
+    SHA256Init(&hash);
+    char *head = file_join(job->root, "exercise.h"), *calls = file_join(job->root, "calls.h"),
+         *solutions = file_join(job->root, "solutions");
+    bool good = hash_file(&hash, job->source) && hash_file(&hash, job->calls) && hash_file(&hash, head) &&
+                hash_file(&hash, calls) && hash_folder(&hash, solutions);
+    char *how = mem_format("%s %s %s", compiler, PRECISION_NAMES[job->precision], job->source);
+    SHA256Update(&hash, (const uint8_t *)how, strlen(how));
+    for (int i = 0; i < FLAG_COUNT; i++) SHA256Update(&hash, (const uint8_t *)FLAGS[i], strlen(FLAGS[i]) + 1);
+    mem_free(how);
+    mem_free(head);
+    mem_free(calls);
+    mem_free(solutions);
+    SHA256End(&hash, hex);
+    return good;
+}
+
+// Runs the compiler; what it prints goes to `printed`. *made: it said yes.
+static bool run_compiler(const BuildJob *job, const char *compiler, const char *library, const char *printed,
+                         bool *made) {
+    char *parent = file_join(job->root, ".."), *real = mem_format("-DREAL=%s", PRECISION_NAMES[job->precision]);
+    const char *argv[FLAG_COUNT + 10] = {compiler};
+    int n = 1;
+    for (int i = 0; i < FLAG_COUNT; i++) argv[n++] = FLAGS[i];
+    argv[n++] = real;
+    argv[n++] = "-I";
+    argv[n++] = parent;
+    argv[n++] = job->source;
+    argv[n++] = job->calls;
+    argv[n++] = "-o";
+    argv[n++] = library;
+    argv[n++] = "-lm";
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, printed, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_adddup2(&actions, 1, 2);
+    pid_t child;
+    int error = posix_spawnp(&child, compiler, &actions, NULL, (char *const *)argv, environ), status = 0;
+    posix_spawn_file_actions_destroy(&actions);
+    mem_free(parent);
+    mem_free(real);
+    if (error)
+        return fail("cannot start the C compiler '%s': %s; install gcc, or set CC to a compiler", compiler,
+                    strerror(error));
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    *made = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return true;
+}
+
+// The library at `path` and the compiler's words beside it, made anew unless both are there.
+static bool make(BuildJob *job, const char *compiler, const char *path) {
+    char *words = mem_format("%s.txt", path), *temporary = mem_format("%s.tmp-%d", path, (int)getpid()),
+         *printed = mem_format("%s.txt.tmp-%d", path, (int)getpid());
+    bool made = file_exists(path), good = true;
+    size_t size;
+    if (!made) {
+        good = run_compiler(job, compiler, temporary, printed, &made);
+        if (good && made) made = rename(temporary, path) == 0;
+        if (good) rename(printed, words);
+    }
+    if (good && !file_read(words, &job->diagnostics, &size)) job->diagnostics = mem_text("");
+    if (good && made) job->library = mem_text(path);
+    unlink(temporary);
+    unlink(printed);
+    mem_free(words);
+    mem_free(temporary);
+    mem_free(printed);
+    return good;
+}
+
+typedef struct {
+    BuildJob *jobs;
+    const char *folder, *compiler;
+} BuildAll;
+
+static bool build_one(void *context, int index) {
+    BuildAll *all = context;
+    BuildJob *job = &all->jobs[index];
+    char hex[SHA256_DIGEST_STRING_LENGTH];
+    if (!job_hash(job, all->compiler, hex)) return false;
+    char *path = mem_format("%s/%.32s.so", all->folder, hex);
+    bool good = make(job, all->compiler, path);
+    mem_free(path);
+    return good;
+}
+
+bool build_all(BuildJob *jobs, int count) {
+    const char *compiler = getenv("CC");
+    BuildAll all = {.jobs = jobs, .compiler = compiler && compiler[0] ? compiler : "cc"};
+    char *folder;
+    if (!cache_folder(&folder)) return false;
+    all.folder = folder;
+    remove_old(folder);
+    bool good = parallel_try(count, build_one, &all);
+    mem_free(folder);
+    return good;
+}
+
+void build_free(BuildJob *job) {
+    mem_free(job->library);
+    mem_free(job->diagnostics);
+    *job = (BuildJob){0};
+}

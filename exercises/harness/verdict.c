@@ -1,0 +1,89 @@
+// verdict.c - compile for both precisions, climb the rungs.
+#include "exercises/harness/verdict.h"
+
+#include "exercises/harness/pictures.h"
+#include "lab/base/clock.h"
+#include "lab/base/mem.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/random.h>
+
+VerdictOptions verdict_options(bool has_seed, uint64_t seed) {
+    VerdictOptions o = {.names_mistakes = true};
+    if (has_seed) {
+        o.seeds[o.seed_count++] = seed;
+        return o;
+    }
+    for (; o.seed_count < RUNG_SEEDS_MAX - 1; o.seed_count++) o.seeds[o.seed_count] = (uint64_t)o.seed_count + 1;
+    uint32_t fresh = 0;
+    if (getrandom(&fresh, sizeof fresh, 0) < 0) fresh = (uint32_t)(clock_seconds() * 1e6);
+    o.seeds[o.seed_count++] = 1000 + fresh % 1000000; // short enough to type
+    return o;
+}
+
+int verdict_first_failed(const Verdict *v) {
+    for (int r = 0; r < v->exercise->rung_count; r++)
+        if (!v->rungs[r].passed) return r;
+    return -1;
+}
+
+// It came back with wrong numbers.
+static bool is_wrong(const RungResult *result) {
+    return result->ran && !result->passed && result->failure.trouble.kind == TROUBLE_NONE;
+}
+
+// One after another until trouble that the next would meet as well.
+static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *options,
+                  Subject *const subjects[PRECISION_COUNT], Verdict *v) {
+    const Exercise *e = v->exercise;
+    for (int r = 0; r < e->rung_count; r++) {
+        RungResult *result = &v->rungs[r];
+        double tolerance[PRECISION_COUNT];
+        for (int p = 0; p < PRECISION_COUNT; p++)
+            tolerance[p] = ledger_tolerance(ledger->own_error[exercise_index(e)][r][p], (Precision)p);
+        rung_run(&e->rungs[r], subjects, tolerance, options->seeds, options->seed_count, result);
+        if (options->names_mistakes && is_wrong(result) &&
+            !suspicion_find(root, e, &e->rungs[r], result->precision, subjects[result->precision], &v->suspicions[r]))
+            return false;
+        if (options->draws && v->pictured < 0 && is_wrong(result) && e->rungs[r].picture &&
+            pictures_write(root, e, &e->rungs[r], result, subjects[result->precision]))
+            v->pictured = r;
+        TroubleKind kind = result->failure.trouble.kind;
+        if (kind == TROUBLE_TIMEOUT || kind == TROUBLE_FLOOD || kind == TROUBLE_MEDDLING) break;
+    }
+    return true;
+}
+
+bool verdict_of(const char *root, const Exercise *exercise, const char *source, const Ledger *ledger,
+                const VerdictOptions *options, Verdict *v) {
+    double began_s = clock_seconds();
+    *v = (Verdict){.exercise = exercise, .pictured = -1, .fresh_seed = options->seeds[options->seed_count - 1]};
+    char *calls = exercise_path(root, exercise, "check_calls.c"), *file = exercise_file_name(exercise);
+    BuildJob jobs[PRECISION_COUNT];
+    Subject *subjects[PRECISION_COUNT] = {NULL};
+    for (int p = 0; p < PRECISION_COUNT; p++)
+        jobs[p] = (BuildJob){.root = root, .source = source, .calls = calls, .precision = (Precision)p};
+    bool good = build_all(jobs, PRECISION_COUNT);
+    v->compiled = good && jobs[0].library && jobs[1].library;
+    v->diagnostics = mem_text(good ? jobs[jobs[0].library ? 1 : 0].diagnostics : "");
+    for (int p = 0; good && v->compiled && p < PRECISION_COUNT; p++)
+        good = (subjects[p] = subject_start(jobs[p].library, file)) != NULL;
+    if (good && v->compiled) good = climb(root, ledger, options, subjects, v);
+    v->passed = good && v->compiled && verdict_first_failed(v) < 0;
+    v->not_started = v->rungs[0].failure.trouble.kind == TROUBLE_NOT_STARTED;
+    for (int p = 0; p < PRECISION_COUNT; p++) {
+        if (subjects[p] && !v->printed[0]) snprintf(v->printed, sizeof v->printed, "%s", subject_printed(subjects[p]));
+        subject_stop(subjects[p]);
+        build_free(&jobs[p]);
+    }
+    mem_free(calls);
+    mem_free(file);
+    v->seconds = clock_seconds() - began_s;
+    return good;
+}
+
+void verdict_free(Verdict *v) {
+    mem_free(v->diagnostics);
+    v->diagnostics = NULL;
+}

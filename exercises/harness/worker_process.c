@@ -1,0 +1,168 @@
+// worker_process.c - posix_spawn, a socket, a pipe, poll().
+#include "exercises/harness/worker_process.h"
+
+#include "exercises/harness/wire.h"
+#include "lab/base/clock.h"
+#include "lab/base/fail.h"
+#include "lab/base/mem.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+bool worker_program_find(char **path) {
+    char program[4096];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(program, '/');
+    if (slash) *slash = 0;
+    const char *set = getenv("SPLATLAB_WORKER");
+    char *places[] = {mem_text(set ? set : ""), mem_format("%s/splatlab-worker", program),
+                      mem_format("%s/build/release/splatlab-worker", program),
+                      mem_text(SPLATLAB_INSTALLED_KERNELS "/../splatlab-worker")};
+    enum { PLACES = sizeof places / sizeof *places };
+    *path = NULL;
+    for (int i = 0; i < PLACES && !*path; i++)
+        if (places[i][0] && access(places[i], X_OK) == 0) *path = mem_text(places[i]);
+    if (!*path)
+        fail("cannot find the program splatlab-worker at %s, %s or %s; run make, or set SPLATLAB_WORKER", places[1],
+             places[2], places[3]);
+    for (int i = 0; i < PLACES; i++) mem_free(places[i]);
+    return *path != NULL;
+}
+
+static void close_all(const int *fds, int count) {
+    for (int i = 0; i < count; i++)
+        if (fds[i] >= 0) close(fds[i]);
+}
+
+// argv[0] with the far ends of socket and pipe; a process group of its own, so that what it starts ends with it.
+static int spawn(const char *const *argv, int socket_end, int output_end, pid_t *pid) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output_end, 1);
+    posix_spawn_file_actions_adddup2(&actions, output_end, 2);
+    posix_spawn_file_actions_adddup2(&actions, socket_end, WIRE_FD);
+    int error = posix_spawnp(pid, argv[0], &actions, &attributes, (char *const *)argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    return error;
+}
+
+// The same file at a number above those that the worker gets, so that no dup2() in the child hits another.
+static int raised(int fd) {
+    int high = fcntl(fd, F_DUPFD_CLOEXEC, WIRE_FD + 1);
+    close(fd);
+    return high;
+}
+
+bool worker_process_start(WorkerProcess *worker, const char *const *argv) {
+    int sockets[2], pipes[2];
+    *worker = (WorkerProcess){0};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) < 0)
+        return fail("cannot make a socket: %s", strerror(errno));
+    if (pipe2(pipes, O_CLOEXEC) < 0) {
+        close_all(sockets, 2);
+        return fail("cannot make a pipe: %s", strerror(errno));
+    }
+    int fds[] = {raised(sockets[0]), raised(sockets[1]), raised(pipes[0]), raised(pipes[1])};
+    int error = EMFILE;
+    if (fds[0] >= 0 && fds[1] >= 0 && fds[2] >= 0 && fds[3] >= 0) error = spawn(argv, fds[1], fds[3], &worker->pid);
+    close_all((int[]){fds[1], fds[3]}, 2);
+    if (error) {
+        close_all((int[]){fds[0], fds[2]}, 2);
+        worker->pid = 0;
+        return fail("cannot start %s: %s", argv[0], strerror(error));
+    }
+    fcntl(fds[0], F_SETFL, O_NONBLOCK);
+    fcntl(fds[2], F_SETFL, O_NONBLOCK);
+    worker->socket = fds[0];
+    worker->output = fds[2];
+    return true;
+}
+
+// Takes what lies in the pipe; false when it is too much.
+static bool read_output(WorkerProcess *worker) {
+    char buffer[4096];
+    ssize_t got;
+    while (worker->printed_bytes <= WORKER_PRINTED_MAX && (got = read(worker->output, buffer, sizeof buffer)) > 0) {
+        for (ssize_t i = 0; i < got; i++, worker->printed_bytes++)
+            if (worker->printed_bytes < WORKER_PRINTED_KEPT)
+                worker->printed[worker->printed_bytes] = buffer[i] ? buffer[i] : '?';
+    }
+    return worker->printed_bytes <= WORKER_PRINTED_MAX;
+}
+
+int worker_process_stop(WorkerProcess *worker) {
+    int status = 0;
+    if (!worker->pid) return 0;
+    // One that has ended by itself keeps its own status.
+    if (waitpid(worker->pid, &status, WNOHANG) != worker->pid) {
+        kill(-worker->pid, SIGKILL);
+        kill(worker->pid, SIGKILL);
+        while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) continue;
+    } else {
+        kill(-worker->pid, SIGKILL); // what it has started
+    }
+    read_output(worker);
+    close(worker->socket);
+    close(worker->output);
+    worker->pid = 0;
+    return status;
+}
+
+// Waits until the socket is ready for `events`, or something is wrong.
+static Heard wait_for(WorkerProcess *worker, short events, double deadline_s) {
+    for (;;) {
+        double left_s = deadline_s - clock_seconds();
+        if (left_s <= 0) return HEARD_TIMEOUT;
+        struct pollfd fds[] = {{worker->socket, events, 0}, {worker->output, POLLIN, 0}};
+        if (poll(fds, 2, (int)(left_s * 1000) + 1) < 0 && errno != EINTR) return HEARD_END;
+        if (fds[1].revents & POLLIN && !read_output(worker)) return HEARD_FLOOD;
+        if (fds[0].revents) return HEARD;
+    }
+}
+
+Heard worker_process_send(WorkerProcess *worker, const void *data, size_t size, double deadline_s) {
+    for (size_t done = 0; done < size;) {
+        ssize_t sent = send(worker->socket, (const char *)data + done, size - done, MSG_NOSIGNAL);
+        if (sent > 0)
+            done += (size_t)sent;
+        else if (errno != EAGAIN && errno != EINTR)
+            return HEARD_END;
+        else {
+            Heard heard = wait_for(worker, POLLOUT, deadline_s);
+            if (heard != HEARD) return heard;
+        }
+    }
+    return HEARD;
+}
+
+Heard worker_process_receive(WorkerProcess *worker, void *data, size_t size, double deadline_s) {
+    for (size_t done = 0; done < size;) {
+        ssize_t got = recv(worker->socket, (char *)data + done, size - done, 0);
+        if (got > 0)
+            done += (size_t)got;
+        else if (got == 0 || (errno != EAGAIN && errno != EINTR))
+            return HEARD_END;
+        else {
+            Heard heard = wait_for(worker, POLLIN, deadline_s);
+            if (heard != HEARD) return heard;
+        }
+    }
+    return HEARD;
+}
