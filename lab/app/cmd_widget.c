@@ -5,14 +5,25 @@
 #include "lab/base/mem.h"
 #include "splat2d/scene2d_json.h"
 
-static bool show(const WindowOptions *o, const char *path) {
-    Scene2d scene = {0};
-    if (!window_options_check(o, "widget")) return false;
-    if (!path)
-        scene = scene2d_default();
-    else if (!scene2d_load(path, &scene))
-        return false;
-    ScreenOptions screen_options = window_options_screen(o, "splatlab - Gaussians in the plane");
+typedef struct {
+    WindowOptions window;
+    bool mine;
+} Options;
+
+static const OptionField OWN_FIELDS[] = {
+    {.name = "mine",
+     .type = OPTION_FLAG,
+     .offset = offsetof(Options, mine),
+     .help = "draw with your own functions, those of exercises E01, E02 and E04 that pass; V swaps them",
+     .section = "Your own code"},
+};
+enum {
+    OWN_FIELD_COUNT = sizeof OWN_FIELDS / sizeof OWN_FIELDS[0],
+    FIELD_COUNT = OWN_FIELD_COUNT + WINDOW_OPTION_COUNT
+};
+
+static bool show_scene(const Options *o, Scene2d scene, const char *path, Mine *mine) {
+    ScreenOptions screen_options = window_options_screen(&o->window, "splatlab - Gaussians in the plane");
     Screen *screen = screen_open(&screen_options);
     if (!screen) {
         scene2d_destroy(&scene);
@@ -20,8 +31,10 @@ static bool show(const WindowOptions *o, const char *path) {
     }
     Widget *widget = mem_alloc(1, sizeof *widget);
     widget_begin(widget, screen, scene, path ? path : "scene.json");
-    widget->state_path = o->state_file;
-    widget->places_path = o->places_file;
+    widget->state_path = o->window.state_file;
+    widget->places_path = o->window.places_file;
+    widget->mine = mine;
+    widget->shows_mine = mine != NULL;
     bool good = widget_loop(widget);
     widget_end(widget);
     mem_free(widget);
@@ -29,14 +42,32 @@ static bool show(const WindowOptions *o, const char *path) {
     return good;
 }
 
+static bool show(const Options *o, const char *path) {
+    Scene2d scene = {0};
+    Mine *mine = NULL;
+    if (!window_options_check(&o->window, "widget")) return false;
+    if (!path)
+        scene = scene2d_default();
+    else if (!scene2d_load(path, &scene))
+        return false;
+    if (o->mine && !(mine = mine_open())) {
+        scene2d_destroy(&scene);
+        return false;
+    }
+    bool good = show_scene(o, scene, path, mine);
+    mine_close(mine);
+    return good;
+}
+
 static int cmd_widget(int argc, char **argv) {
-    const WindowOptions defaults = {0};
-    OptionField fields[WINDOW_OPTION_COUNT];
-    const OptionTable table = {fields, WINDOW_OPTION_COUNT, &defaults};
-    WindowOptions options = defaults;
+    const Options defaults = {0};
+    OptionField fields[FIELD_COUNT];
+    const OptionTable table = {fields, FIELD_COUNT, &defaults};
+    Options options = defaults;
     const char *path = NULL;
     int count, exit_code;
-    window_options_fields(0, fields);
+    for (int i = 0; i < OWN_FIELD_COUNT; i++) fields[i] = OWN_FIELDS[i];
+    window_options_fields(offsetof(Options, window), fields + OWN_FIELD_COUNT);
     if (!command_line_parse(&CMD_WIDGET, &table, argc, argv, &options, &path, 1, &count, &exit_code)) return exit_code;
     return show(&options, path) ? 0 : command_failed();
 }

@@ -5,6 +5,7 @@
 #ifndef SPLATLAB_LAB_APP_WIDGET_H
 #define SPLATLAB_LAB_APP_WIDGET_H
 
+#include "exercises/harness/mine_picture2d.h"
 #include "lab/app/canvas2d.h"
 #include "lab/app/demo.h"
 #include "lab/app/gui.h"
@@ -65,6 +66,12 @@ typedef struct {
     double note_until_s;
     bool shows_help;
 
+    // A person's own functions.
+    Mine *mine; // borrowed; NULL without --mine
+    bool shows_mine;
+    int mine_block;       // px: side of the blocks that they draw
+    double mine_looked_s; // when their files were last looked at
+
     // A lecture.
     const Demo *demo; // borrowed; NULL: none
     int step;         // of the demo
@@ -103,6 +110,12 @@ void widget_pixel(Widget *widget, GuiRect place);           // widget_pixel.c: o
 void widget_help(Widget *widget);                           // widget_help.c: the overlay of F1
 void widget_demo_strip(Widget *widget, GuiRect place);      // widget_demo.c: caption, question, steps
 void widget_demo_keys(Widget *widget);                      // widget_demo.c: left, right, R, G
+
+// ---- a person's own functions: widget_mine.c; the first and the last do nothing without them ----
+
+void widget_mine_keys(Widget *widget);
+void widget_mine_draw(Widget *widget); // into picture and maps
+void widget_mine_panel(Widget *widget);
 
 // ---- actions that buttons and keys share: widget_edit.c ----
 

@@ -100,4 +100,5 @@ void widget_keys(Widget *widget) {
     }
     blob_keys(widget);
     look_keys(widget);
+    widget_mine_keys(widget);
 }

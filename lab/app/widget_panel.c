@@ -178,6 +178,7 @@ void widget_panel(Widget *widget, GuiRect place) {
     gui_rule();
     if (widget_active(widget)) widget_maths(widget_active(widget));
     gui_rule();
+    widget_mine_panel(widget);
     heading("The picture");
     switches(widget);
     background(widget);

@@ -66,7 +66,10 @@ void widget_picture(Widget *widget, int width, int height) {
     fit_buffers(widget, width, height);
     double began_s = clock_seconds();
     raster2d_load(&widget->raster, &widget->scene, widget->canvas.view);
-    raster2d_draw(&widget->raster, &widget->settings, &widget->picture, &widget->maps);
+    if (widget->shows_mine)
+        widget_mine_draw(widget);
+    else
+        raster2d_draw(&widget->raster, &widget->settings, &widget->picture, &widget->maps);
     widget->raster_ms = 1e3 * (clock_seconds() - began_s);
     parallel_for(height, row_to_bytes, widget);
     gui_picture_fill(0, &widget->picture8, true);
