@@ -206,7 +206,7 @@ endif
 
 .PHONY: test
 test: all $(TESTS) $(KERNELS_COMPILE) ## run every test (minutes)
-	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) tests/run $(TESTS) tests/lint/selftest.py
+	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKER=$(WORKER) tests/run $(TESTS) tests/lint/selftest.py
 
 .PHONY: test-long
 test-long: all ## what takes longer: Oclgrind, resume, thread count, then all tests under ASan and UBSan

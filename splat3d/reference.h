@@ -70,6 +70,9 @@ typedef struct {
     double rgb[3];
 } Splat2Gradient;
 
+// Sigma' = J W Sigma W^T J^T + low pass, px^2, of a Sigma in the world whose mean is at mean_cam (z > 0) in camera axes.
+Sym2 reference_ewa_forward(const Camera *camera, Vec3 mean_cam, Sym3 covariance, double low_pass_px2);
+
 void reference_project_forward(const GaussiansD *g, int i, const Camera *camera, const RenderSettings *settings,
                                Splat2 *splat);
 // Adds to d_model's numbers of splat i; nothing when the splat is not visible.

@@ -73,6 +73,10 @@ static Sym2 ewa_covariance_forward(EwaMap map, Sym3 sigma) {
     return (Sym2){vec3_dot(map.t_x, sigma_t_x), vec3_dot(map.t_x, sigma_t_y), vec3_dot(map.t_y, sigma_t_y)};
 }
 
+Sym2 reference_ewa_forward(const Camera *camera, Vec3 mean_cam, Sym3 covariance, double low_pass_px2) {
+    return sym2_add_diagonal(ewa_covariance_forward(ewa_map_forward(camera, mean_cam), covariance), low_pass_px2);
+}
+
 // Sigma is symmetric, so t_x . Sigma t_x moves with t_x by 2 Sigma t_x, and t_x . Sigma t_y by Sigma t_y with t_x and
 // by Sigma t_x with t_y. A stored off-diagonal number of Sigma stands for two entries, hence its two products of t's.
 static void ewa_covariance_backward(EwaMap map, Sym3 sigma, Sym2 d, EwaMap *d_map, Sym3 *d_sigma) {
@@ -118,8 +122,7 @@ void reference_project_forward(const GaussiansD *g, int i, const Camera *camera,
     s.mean_px[0] = camera->fx * c.x / c.z + camera->cx; // (2)
     s.mean_px[1] = camera->fy * c.y / c.z + camera->cy;
     Sym3 sigma = reference_covariance_forward(gaussiansd_at(g, FIELD_LOG_SCALE, i), gaussiansd_at(g, FIELD_QUAT, i));
-    Sym2 projected = ewa_covariance_forward(ewa_map_forward(camera, c), sigma);
-    s.covariance = sym2_add_diagonal(projected, (double)settings->low_pass_px2);
+    s.covariance = reference_ewa_forward(camera, c, sigma, (double)settings->low_pass_px2);
     s.opacity = sigmoid(*gaussiansd_at(g, FIELD_OPACITY_LOGIT, i));
     if (!covariance_conic(s.covariance, &s.conic) || !reaches_picture(&s, camera)) return;
 

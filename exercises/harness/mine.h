@@ -12,10 +12,20 @@
 
 typedef struct Mine Mine;
 
-// The exercises whose functions the lab can use, in the order of a picture's making; the first three are all that a picture in the
-// plane needs.
-typedef enum { MINE_COV2, MINE_CONIC, MINE_COMPOSITE, MINE_COV3, MINE_CAMERA, MINE_EWA, MINE_SH, MINE_COUNT } MinePart;
-enum { MINE_PLANE_COUNT = MINE_COMPOSITE + 1, MINE_STATE_BYTES = 480 };
+// The exercises whose functions the lab can use, in the order of a picture's making.
+typedef enum {
+    MINE_COV2,
+    MINE_CONIC,
+    MINE_COMPOSITE,
+    MINE_PLANE_COUNT, // those above are all that a picture in the plane needs
+    MINE_COV3 = MINE_PLANE_COUNT,
+    MINE_CAMERA,
+    MINE_EWA,
+    MINE_SH,
+    MINE_COUNT
+} MinePart;
+
+enum { MINE_STATE_BYTES = 480 };
 
 // Judges the exercises whose functions the lab can use. NULL with a message when the exercises or the worker are not there.
 Mine *mine_open(void);

@@ -1,4 +1,5 @@
 // cmd_render.c - `splatlab render`: pictures of a model, from a view of its scene, a camera file, or all round.
+#include "exercises/harness/mine_rasterizer.h"
 #include "lab/app/commands.h"
 #include "lab/app/frame.h"
 #include "lab/app/model_source.h"
@@ -30,7 +31,7 @@ typedef struct {
     int downscale;
     char background[OPTION_TEXT_BYTES];
     bool depth, alpha;
-    bool reference;
+    bool reference, mine;
     double alpha_max;
     int stop; // StopRule
     char device[OPTION_TEXT_BYTES];
@@ -94,6 +95,10 @@ static const OptionField FIELDS[] = {
      .offset = offsetof(Options, reference),
      .help = "the double-precision C reference: slow, needs no device",
      .section = "How to render"},
+    {.name = "mine",
+     .type = OPTION_FLAG,
+     .offset = offsetof(Options, mine),
+     .help = "by your own functions, those of the exercises that pass, and the C reference: slow, needs no device"},
     {.name = "alpha-max",
      .type = OPTION_DOUBLE,
      .offset = offsetof(Options, alpha_max),
@@ -119,6 +124,7 @@ typedef struct {
     ModelSource source;
     Dataset dataset; // with --view and --orbit
     Gaussians model;
+    Mine *mine; // with --mine
     Renderer renderer;
     RenderSettings settings;
     Camera camera; // of the single picture
@@ -129,6 +135,7 @@ typedef struct {
 static void job_close(Job *job) {
     json_decref(job->files);
     renderer_close(&job->renderer);
+    mine_close(job->mine);
     gaussians_destroy(&job->model);
     dataset_destroy(&job->dataset);
     model_source_forget(&job->source);
@@ -144,6 +151,9 @@ static bool check_usage(const Options *o) {
     if (!o->camera[0] && !o->scene[0])
         return fail_usage("render: %s needs the scene's folder: --scene SCENE", o->orbit ? "--orbit" : "--view");
     if (!o->output[0]) return fail_usage("render: where to? -o OUT.png");
+    if (o->mine && (o->depth || o->alpha))
+        return fail_usage("render: --mine makes colour pictures; leave --depth and --alpha away");
+    if (o->mine && o->reference) return fail_usage("render: --mine or --reference, not both");
     if (o->depth && o->alpha) return fail_usage("render: --depth and --alpha are two pictures; ask for one at a time");
     if (o->alpha && file_has_ending(o->output, ".jpg"))
         return fail_usage("render: --output %s: a JPEG has no alpha; want .png or .exr", o->output);
@@ -194,6 +204,19 @@ static bool find_camera(Job *job) {
     return true;
 }
 
+// Says whose function each stage is.
+static bool open_mine(Job *job) {
+    job->mine = mine_open();
+    if (!job->mine) return false;
+    for (MinePart part = MINE_CONIC; part < MINE_COUNT; part++) {
+        char text[MINE_STATE_BYTES];
+        mine_state(job->mine, part, text);
+        log_info("%s", text);
+    }
+    job->renderer.rasterizer = mine_rasterizer_create(job->mine);
+    return true;
+}
+
 // Everything that can be refused is refused before the first picture.
 static bool job_open(Job *job) {
     const Options *o = &job->options;
@@ -205,6 +228,7 @@ static bool job_open(Job *job) {
     if (!output_path_check("output", o->output, ENDINGS)) return false;
     if (!find_camera(job)) return false;
     if (!ply_load(job->source.path, &job->model)) return false;
+    if (o->mine) return open_mine(job);
     return renderer_open(o->reference, o->device, o->kernels, &job->renderer);
 }
 
