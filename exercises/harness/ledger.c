@@ -24,6 +24,12 @@ double ledger_tolerance(double own_error, Precision precision) {
     return fmax(FACTOR * own_error, LAST_PLACES * (precision == PRECISION_FLOAT ? FLT_EPSILON : DBL_EPSILON));
 }
 
+bool ledger_agrees(double own_error, double measured, Precision precision) {
+    double smallest = ledger_tolerance(0, precision);
+    if (FACTOR * own_error <= smallest && FACTOR * measured <= smallest) return true;
+    return own_error <= FACTOR * measured && measured <= FACTOR * own_error;
+}
+
 void ledger_clear(Ledger *ledger) {
     for (int e = 0; e < EXERCISE_COUNT; e++)
         for (int r = 0; r < RUNGS_MAX; r++)

@@ -17,6 +17,10 @@ bool ledger_save(const char *root, const Ledger *ledger);
 
 double ledger_tolerance(double own_error, Precision precision);
 
+// Is that what a solution that misses by `measured` would be noted with? Seeds differ by one, so within a factor of ten; what is far
+// below the smallest tolerance says nothing.
+bool ledger_agrees(double own_error, double measured, Precision precision);
+
 // An empty one, with which everything is measured and nothing fails.
 void ledger_clear(Ledger *ledger);
 

@@ -36,6 +36,11 @@ static bool try_solution(const char *root, const Exercise *e, const Ledger *ledg
     bool good = judge(root, e, solution, ledger, false, v);
     result->solution_passes = good && v->passed;
     result->verdict_seconds = v->seconds;
+    result->ledger_agrees = true;
+    for (int r = 0; r < e->rung_count; r++)
+        for (int p = e->rungs[r].double_only ? PRECISION_DOUBLE : PRECISION_FLOAT; p < PRECISION_COUNT; p++)
+            result->ledger_agrees &=
+                ledger_agrees(ledger->own_error[exercise_index(e)][r][p], v->rungs[r].own_error[p], (Precision)p);
     for (int r = 0; r < e->rung_count; r++)
         memcpy(result->own_error[r], v->rungs[r].own_error, sizeof result->own_error[r]);
     verdict_free(v);
@@ -84,5 +89,6 @@ bool selftest_run(const char *root, const Exercise *exercise, const Ledger *ledg
 }
 
 bool selftest_is_sound(const SelftestResult *r) {
-    return r->stub_fails && r->solution_passes && r->mutants >= MUTANTS_MIN && r->mutants_killed == r->mutants;
+    return r->stub_fails && r->solution_passes && r->ledger_agrees && r->mutants >= MUTANTS_MIN &&
+           r->mutants_killed == r->mutants;
 }

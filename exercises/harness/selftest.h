@@ -16,6 +16,7 @@ typedef struct {
 
 typedef struct {
     bool stub_fails, solution_passes; // the stub: with its friendly first message
+    bool ledger_agrees;               // the tolerances are those of this solution
     int mutants, mutants_killed, mutants_named;
     MutantResult mutant[MUTANTS_MAX];
     double seconds;

@@ -32,6 +32,7 @@ static void print_result(const Exercise *e, const SelftestResult *r) {
     printf("E%02d %-12s %-9s %-13s %3d %9d %8d %9.2f %8.1f\n", e->number, e->name, r->stub_fails ? "fails" : "NO",
            r->solution_passes ? "passes" : "NO", r->mutants, r->mutants_killed, r->mutants_named, r->verdict_seconds,
            r->seconds);
+    if (!r->ledger_agrees) printf("    ledger.txt is not this solution's: splatlab exercise selftest --write-ledger\n");
     for (int i = 0; i < r->mutants; i++)
         if (!r->mutant[i].killed)
             printf("    %s survives\n", r->mutant[i].name);
