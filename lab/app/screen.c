@@ -9,6 +9,7 @@
 #include "lab/base/mem.h"
 #include "lab/io/image_io.h"
 
+#include <GLFW/glfw3.h>
 #include <math.h>
 #include <string.h>
 
@@ -25,6 +26,7 @@ struct Screen {
     int frame;      // shown so far
     int lively;     // frames that are drawn without waiting
     int zoom;       // steps
+    long marks;
     bool quit;
     double began_s, work_ms;
 };
@@ -55,6 +57,8 @@ void screen_close(Screen *screen) {
 }
 
 bool screen_is_window(const Screen *screen) { return screen->window != NULL; }
+
+long screen_marks(const Screen *screen) { return screen->marks; }
 
 double screen_work_ms(const Screen *screen) { return screen->work_ms; }
 
@@ -89,6 +93,7 @@ bool screen_begin(Screen *screen, bool is_moving) {
     screen->began_s = clock_seconds();
     follow_size(screen, width, height);
     gui_frame_begin(width, height, 0);
+    if (screen->window) screen->marks += window_key_count(screen->window, GLFW_KEY_F12, 0);
     return true;
 }
 

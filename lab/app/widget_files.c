@@ -55,7 +55,7 @@ bool widget_write_state(Widget *widget) {
     return true;
 }
 
-// { "canvas": [x, y, width, height], ... } in points of the window, and how many of them a canvas px has.
+// { "canvas": [x, y, width, height], ... } in points of the window, how many of them a canvas px has, and the marks.
 bool widget_write_places(Widget *widget) {
     if (!widget->places_path[0]) return true;
     char *text = NULL;
@@ -64,7 +64,7 @@ bool widget_write_places(Widget *widget) {
     GuiRect r;
     FILE *out = open_memstream(&text, &size);
     if (!out) return fail("cannot note where the controls are: out of memory");
-    fprintf(out, "{\n  \"zoom\": %.17g", widget->canvas.view.zoom);
+    fprintf(out, "{\n  \"zoom\": %.17g,\n  \"marks\": %ld", widget->canvas.view.zoom, screen_marks(widget->screen));
     for (int i = 0; gui_place(i, &label, &r); i++)
         if (!strpbrk(label, "\"\\"))
             fprintf(out, ",\n  \"%s\": [%.9g, %.9g, %.9g, %.9g]", label, r.x, r.y, r.width, r.height);

@@ -186,16 +186,16 @@ static void the_arrows_step_and_g_films(void **state) {
     setenv("SPLATLAB_DEMOS", demos, 1);
     free(demos);
     session_start("demo", "popping");
-    session_do("key Right sleep 0.3");
+    session_do("key Right");
     assert_true(session_scene()->blobs[1].depth == 0.9);
-    session_do("key x sleep 0.2 key g sleep 0.2 key Right sleep 0.3 key g sleep 0.5");
+    session_do("key x; key g; key Right; key g");
     assert_true(session_scene()->blobs[0].opacity == 0.25);
     assert_true(session_scene()->blobs[1].sigma_x == 130); // what was done by hand before is gone
     const char *film = support_path(support_scratch(), "demo.gif");
     for (int tries = 0; tries < 100 && !file_exists(film); tries++)
         session_do("sleep 0.1"); // it takes a while to write
     assert_true(file_exists(film));
-    session_do("key Left key Left key Left sleep 0.3");
+    session_do("key Left key Left key Left");
     assert_true(session_scene()->blobs[1].depth == 1.1);
     assert_int_equal(session_end(), 0);
 }

@@ -18,7 +18,7 @@ enum { EVENTS = 1000 };
 static void start_widget(void) {
     session_need_screen();
     if (session_is_alive())
-        session_do("key Escape key ctrl+r key 1 sleep 0.2");
+        session_do("key Escape key ctrl+r key 1");
     else
         session_start("widget", NULL);
 }
@@ -95,7 +95,7 @@ static void another_depth_order_changes_the_pixel(void **state) {
     RasterSettings settings = raster_settings_default();
     raster2d_load(&raster, session_scene(), view2d_whole());
     WalkResult before = pixel_walk(&raster, &settings, 660.5, 330.5, steps);
-    session_do("key 4 sleep 0.2 key bracketright sleep 0.2");
+    session_do("key 4; key bracketright");
     const Scene2d *scene = session_scene();
     assert_int_equal(scene2d_rank(scene, 3), 2);
     assert_int_equal(scene2d_rank(scene, 4), 1);
@@ -112,9 +112,9 @@ static void the_wheel_changes_the_depth_rank(void **state) {
     double at[2];
     session_point((double[2]){480, 100}, at);
     int before = scene2d_rank(session_scene(), 0);
-    session_do("mousemove %.0f %.0f sleep 0.2 click 4 sleep 0.3", at[0], at[1]);
+    session_do("mousemove %.0f %.0f; click 4", at[0], at[1]);
     assert_int_equal(scene2d_rank(session_scene(), 0), before - 1);
-    session_do("click 5 sleep 0.3 click 5 sleep 0.3");
+    session_do("click 5; click 5");
     assert_int_equal(scene2d_rank(session_scene(), 0), before + 1);
 }
 
@@ -131,11 +131,11 @@ static void a_whole_drag_is_one_step(void **state) {
     char *faint = strdup(session_bytes());
     assert_string_not_equal(first, dragged);
     assert_string_not_equal(dragged, faint);
-    session_do("key ctrl+z sleep 0.3");
+    session_do("key ctrl+z");
     assert_string_equal(session_bytes(), dragged);
-    session_do("key ctrl+z sleep 0.3");
+    session_do("key ctrl+z");
     assert_string_equal(session_bytes(), first);
-    session_do("key ctrl+y sleep 0.3 key ctrl+shift+z sleep 0.3");
+    session_do("key ctrl+y; key ctrl+shift+z");
     assert_string_equal(session_bytes(), faint);
     free(first);
     free(dragged);
@@ -147,13 +147,13 @@ static void undo_restores_the_bytes(void **state) {
     (void)state;
     start_widget();
     char *first = strdup(session_bytes());
-    session_do("key x sleep 0.3 key d sleep 0.3 key Delete sleep 0.3 key Delete sleep 0.3");
+    session_do("key x; key d; key Delete; key Delete");
     assert_int_equal(session_scene()->count, 5);
     char *last = strdup(session_bytes());
     int steps = 0;
-    for (; steps < 4 && strcmp(session_bytes(), first) != 0; steps++) session_do("key ctrl+z sleep 0.2");
+    for (; steps < 4 && strcmp(session_bytes(), first) != 0; steps++) session_do("key ctrl+z");
     assert_string_equal(session_bytes(), first);
-    for (; steps > 0; steps--) session_do("key ctrl+y sleep 0.2");
+    for (; steps > 0; steps--) session_do("key ctrl+y");
     assert_string_equal(session_bytes(), last);
     free(first);
     free(last);
@@ -163,13 +163,13 @@ static void a_saved_scene_is_loaded_again(void **state) {
     (void)state;
     start_widget();
     double middle[2], size[2];
-    session_do("key n sleep 0.2 key ctrl+s sleep 0.3");
+    session_do("key n; key ctrl+s");
     char *saved = strdup(session_bytes());
     assert_true(file_exists(support_path(support_scratch(), "scene.json")));
     session_place("Delete", middle, size);
-    session_do("mousemove %.0f %.0f sleep 0.2 click 1 sleep 0.3", middle[0], middle[1]);
+    session_do("mousemove %.0f %.0f; click 1", middle[0], middle[1]);
     assert_int_equal(session_scene()->count, 6);
-    session_do("key ctrl+o sleep 0.3 key ctrl+e sleep 0.5");
+    session_do("key ctrl+o; key ctrl+e");
     assert_string_equal(session_bytes(), saved);
     Image8 picture = {0};
     assert_true(image_load8(support_path(support_scratch(), "scene.png"), &picture));

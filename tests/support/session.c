@@ -82,11 +82,11 @@ void session_start(const char *command, const char *argument) {
     program_process = fork();
     if (program_process == 0) run_program(program, command, argument);
     free(program);
-    for (int tries = 0; tries < 300 && !file_exists(places_path); tries++) {
+    for (int tries = 0; tries < 1500 && !file_exists(places_path); tries++) {
         assert_true(session_is_alive());
-        usleep(100000);
+        usleep(20000);
     }
-    session_do("sleep 0.3");
+    session_do("mousemove 1 1");
 }
 
 bool session_is_alive(void) {
@@ -105,46 +105,58 @@ int session_end(void) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-void session_do(const char *format, ...) {
-    va_list values;
+// How often the window has seen the key that ends each part of a script; -1 before it wrote that down.
+static double marks(void) {
+    double count = -1;
+    json_t *root = NULL;
+    if (json_read(places_path, &root)) json_get_number(root, "marks", places_path, &count);
+    json_decref(root);
+    return count;
+}
+
+// The window takes events in order and writes its files at the end of the frame: when it has seen the mark, all before is done.
+static void run_part(const char *part, size_t length) {
+    double before = marks();
     FILE *script = fopen(script_path, "w");
     assert_non_null(script);
-    va_start(values, format);
-    vfprintf(script, format, values);
-    va_end(values);
-    fprintf(script, "\nsleep 0.1\n");
+    fprintf(script, "%.*s\nkey F12\n", (int)length, part);
     fclose(script);
     char command[4200];
     snprintf(command, sizeof command, "xdotool '%s'", script_path);
     assert_int_equal(system(command), 0);
+    for (int tries = 0; marks() == before; tries++) {
+        if (!session_is_alive()) return; // a test may end it by a key; all others find out at once
+        if (tries == 6000) fail_msg("the window does not answer to: %.*s", (int)length, part);
+        usleep(5000);
+    }
+}
+
+void session_do(const char *format, ...) {
+    char *script;
+    va_list values;
+    va_start(values, format);
+    assert_true(vasprintf(&script, format, values) >= 0);
+    va_end(values);
+    for (const char *part = script; *part;) {
+        size_t length = strcspn(part, ";");
+        run_part(part, length);
+        part += length + (part[length] == ';');
+    }
+    free(script);
 }
 
 void session_drag(double x0, double y0, double x1, double y1) {
-    session_do("mousemove %.0f %.0f\nsleep 0.2\nmousedown 1\nsleep 0.2\nmousemove %.0f %.0f\nsleep 0.1\n"
-               "mousemove %.0f %.0f\nsleep 0.2\nmouseup 1\nsleep 0.2",
-               x0, y0, (x0 + x1) / 2, (y0 + y1) / 2, x1, y1);
-}
-
-// The file, when it has not changed for a while; owned by the caller.
-static char *settled_bytes(void) {
-    char *bytes = NULL;
-    for (int same = 0, tries = 0; same < 5 && tries < 200; tries++) {
-        char *now = NULL;
-        size_t size;
-        usleep(100000);
-        if (!file_read(state_path, &now, &size)) continue;
-        same = bytes && strcmp(bytes, now) == 0 ? same + 1 : 0;
-        mem_free(bytes);
-        bytes = now;
-    }
-    assert_non_null(bytes);
-    return bytes;
+    session_do("mousemove %.0f %.0f; mousedown 1; mousemove %.0f %.0f; mousemove %.0f %.0f; mouseup 1", x0, y0,
+               (x0 + x1) / 2, (y0 + y1) / 2, x1, y1);
 }
 
 const char *session_bytes(void) {
     static char *kept;
+    size_t size;
     mem_free(kept);
-    return kept = settled_bytes();
+    kept = NULL;
+    if (!file_read(state_path, &kept, &size)) fail_msg("%s", fail_text());
+    return kept;
 }
 
 const Scene2d *session_scene(void) {

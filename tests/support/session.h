@@ -16,13 +16,14 @@ void session_start(const char *command, const char *argument);
 int session_end(void); // as if the person pressed Ctrl-C; the exit code, -1 after a crash
 bool session_is_alive(void);
 
-// Runs xdotool with this script ("mousemove 10 10 click 1"), printf style, and gives the window time to answer.
+// Runs xdotool with this script, printf style. At each ";" it waits until the window has shown a frame with what was done:
+// "mousemove 10 10; click 1". Without one, events may fall into the same frame.
 void session_do(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Moves, holds, moves in steps, releases: window px.
 void session_drag(double x0, double y0, double x1, double y1);
 
-// The scene as the state file has it (the same object until the next call), once the program has gone quiet.
+// The scene as the state file has it (the same object until the next call).
 const Scene2d *session_scene(void);
 const char *session_bytes(void); // the state file itself, likewise
 
