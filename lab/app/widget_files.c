@@ -1,13 +1,11 @@
 // widget_files.c - scenes and pictures on disk; what scripts read while the window is open.
+#include "lab/app/places.h"
 #include "lab/app/widget.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
-#include "lab/io/file.h"
 #include "lab/io/image_io.h"
 #include "splat2d/scene2d_json.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 void widget_save(Widget *widget) {
@@ -55,27 +53,6 @@ bool widget_write_state(Widget *widget) {
     return true;
 }
 
-// { "canvas": [x, y, width, height], ... } in points of the window, how many of them a canvas px has, and the marks.
 bool widget_write_places(Widget *widget) {
-    if (!widget->places_path[0]) return true;
-    char *text = NULL;
-    const char *label;
-    size_t size = 0;
-    GuiRect r;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return fail("cannot note where the controls are: out of memory");
-    fprintf(out, "{\n  \"zoom\": %.17g,\n  \"marks\": %ld", widget->canvas.view.zoom, screen_marks(widget->screen));
-    for (int i = 0; gui_place(i, &label, &r); i++)
-        if (!strpbrk(label, "\"\\"))
-            fprintf(out, ",\n  \"%s\": [%.9g, %.9g, %.9g, %.9g]", label, r.x, r.y, r.width, r.height);
-    fprintf(out, "\n}\n");
-    fclose(out);
-    bool is_new = !widget->places || strcmp(text, widget->places) != 0;
-    bool good = !is_new || file_write(widget->places_path, text, size);
-    if (is_new) {
-        mem_free(widget->places);
-        widget->places = mem_text(text);
-    }
-    free(text);
-    return good;
+    return places_write(widget->places_path, &widget->places, widget->screen, widget->canvas.view.zoom);
 }

@@ -185,7 +185,7 @@ static void the_arrows_step_and_g_films(void **state) {
     char *demos = realpath("lab/app/demos", NULL); // the session runs elsewhere
     setenv("SPLATLAB_DEMOS", demos, 1);
     free(demos);
-    session_start("demo", "popping");
+    session_start("demo", "popping", NULL);
     session_do("key Right");
     assert_true(session_scene()->blobs[1].depth == 0.9);
     session_do("key x; key g; key Right; key g");
