@@ -213,7 +213,7 @@ static bool write_files(FitLive *live) {
                    fit2d_steps_done(job->fit), job->options.iterations, fit2d_count(job->fit), job->loss.total,
                    live->psnr, live->is_paused ? "true" : "false", live->is_saved ? "true" : "false");
     bool good = places_write_text(live->options->state_file, &live->state, state) &&
-                places_write(live->options->places_file, &live->places, live->screen, 1);
+                places_write(live->options->places_file, &live->places, live->screen, NULL, 0);
     mem_free(state);
     return good;
 }

@@ -18,7 +18,7 @@ bool places_write_text(const char *path, char **written, const char *text) {
     return true;
 }
 
-bool places_write(const char *path, char **written, const Screen *screen, double zoom) {
+bool places_write(const char *path, char **written, const Screen *screen, const PlacesNumber *numbers, int count) {
     if (!path[0]) return true;
     char *text = NULL;
     const char *label;
@@ -26,7 +26,8 @@ bool places_write(const char *path, char **written, const Screen *screen, double
     GuiRect r;
     FILE *out = open_memstream(&text, &size);
     if (!out) return fail("cannot note where the controls are: out of memory");
-    fprintf(out, "{\n  \"zoom\": %.17g,\n  \"marks\": %ld", zoom, screen_marks(screen));
+    fprintf(out, "{\n  \"marks\": %ld", screen_marks(screen));
+    for (int i = 0; i < count; i++) fprintf(out, ",\n  \"%s\": %.17g", numbers[i].name, numbers[i].value);
     for (int i = 0; gui_place(i, &label, &r); i++)
         if (!strpbrk(label, "\"\\"))
             fprintf(out, ",\n  \"%s\": [%.9g, %.9g, %.9g, %.9g]", label, r.x, r.y, r.width, r.height);

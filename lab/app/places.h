@@ -6,10 +6,15 @@
 
 #include <stdbool.h>
 
-// Writes { "zoom": zoom, "marks": ..., "canvas": [x, y, width, height], ... } to the path when it is another text than
-// *written, which it becomes (owned by the caller, NULL at first). In points of the window; zoom: points a canvas px has;
-// marks: screen_marks(). path "": nothing happens.
-bool places_write(const char *path, char **written, const Screen *screen, double zoom);
+typedef struct {
+    const char *name;
+    double value;
+} PlacesNumber;
+
+// Writes { "marks": ..., "NUMBER": ..., "canvas": [x, y, width, height], ... } to the path when it is another text than
+// *written, which it becomes (owned by the caller, NULL at first). In points of the window; marks: screen_marks(); count
+// numbers that scripts may want besides. path "": nothing happens.
+bool places_write(const char *path, char **written, const Screen *screen, const PlacesNumber *numbers, int count);
 
 // Writes the text to the path when it is another than *written, likewise.
 bool places_write_text(const char *path, char **written, const char *text);

@@ -11,6 +11,7 @@
 #include "lab/app/history.h"
 #include "lab/app/screen.h"
 #include "lab/app/trap_page.h"
+#include "lab/app/widget_film.h"
 #include "splat2d/pixel_walk.h"
 
 #include <stdbool.h>
@@ -21,7 +22,7 @@ typedef enum { LAYER_COLOUR, LAYER_TRANSMITTANCE, LAYER_VISITS } WidgetLayer;
 // Which page is shown: the blobs, or the PSD trap.
 typedef enum { PAGE_BLOBS, PAGE_TRAP } WidgetPage;
 
-enum { WIDGET_PATH_BYTES = 1024, FILM_FRAMES_MAX = 240 };
+enum { WIDGET_PATH_BYTES = 1024 };
 
 typedef struct {
     Screen *screen; // borrowed
@@ -34,8 +35,8 @@ typedef struct {
     RasterSettings settings;
 
     Canvas2d canvas;
-    bool is_placed; // the canvas has had its first view
-    Drag2d drag;    // grip GRIP_NONE: nothing is dragged
+    bool is_moved; // by hand, zoomed or panned; else all of the canvas is shown, however large its place is
+    Drag2d drag;   // grip GRIP_NONE: nothing is dragged
 
     // The picture, and what it was made of.
     Raster2d raster; // of the whole canvas, one to one, after each widget_picture()
@@ -47,6 +48,7 @@ typedef struct {
     bool is_stale;       // something changed since it was made
     WidgetLayer layer;
     bool shows_outlines;
+    bool hides_panel;
 
     // The pixel that is explained.
     double probe[2]; // px of the canvas
@@ -66,13 +68,15 @@ typedef struct {
     bool shows_help;
 
     // A lecture.
-    const Demo *demo; // borrowed; NULL: none
-    int step;         // of the demo
-    Scene2d compared; // for which psnr was computed
-    double psnr;      // dB, of the scene against the step that the demo compares to
-    bool is_filming;  // each frame is kept for a GIF
-    Image8 *film;     // (film_count), owned
-    int film_count;
+    Demo *demo;         // borrowed, and filled anew when another is chosen; NULL: none
+    int step;           // of the demo
+    Scene2d compared;   // for which psnr was computed
+    double psnr;        // dB, of the scene against the step that the demo compares to
+    bool asks_audience; // a step's question fills the picture before the next step answers it
+    bool is_asking;     // the question is shown
+    bool is_playing;    // the steps follow by themselves
+    double stepped_s;   // when the step was shown
+    WidgetFilm film;
 } Widget;
 
 // scene: becomes the widget's own.
@@ -102,7 +106,8 @@ void widget_maths(const Blob *blob);                        // widget_maths.c: S
 void widget_pixel(Widget *widget, GuiRect place);           // widget_pixel.c: one pixel's walk, and T along it
 void widget_help(Widget *widget);                           // widget_help.c: the overlay of F1
 void widget_demo_strip(Widget *widget, GuiRect place);      // widget_demo.c: caption, question, steps
-void widget_demo_keys(Widget *widget);                      // widget_demo.c: left, right, R, G
+void widget_demo_question(Widget *widget, GuiRect place);   // widget_demo.c: what the audience is asked
+void widget_demo_keys(Widget *widget);                      // widget_demo.c: arrows, digits, R, A, Space
 
 // ---- actions that buttons and keys share: widget_edit.c ----
 
@@ -110,6 +115,8 @@ void widget_add(Widget *widget); // where the mouse is, or in the middle
 void widget_duplicate(Widget *widget);
 void widget_remove(Widget *widget);
 void widget_reset(Widget *widget);
+void widget_fit(Widget *widget);         // all of the canvas is shown
+void widget_toggle_film(Widget *widget); // begins one, or ends it and writes it
 void widget_undo(Widget *widget);
 void widget_redo(Widget *widget);
 void widget_raise(Widget *widget, int steps); // towards the front by that many ranks; negative: to the back
@@ -119,7 +126,7 @@ void widget_select(Widget *widget, int index);
 
 void widget_show_step(Widget *widget, int step); // as the demo's file has it, whatever was changed by hand before
 void widget_show_page(Widget *widget, WidgetPage page);
-void widget_keep_frame(Widget *widget); // for the film, when there is one
+bool widget_demo_plays(Widget *widget); // the next step when it is time; is something moving by itself?
 
 // ---- files: widget_files.c ----
 

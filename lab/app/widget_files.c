@@ -45,6 +45,19 @@ void widget_export(Widget *widget) {
     mem_free(path);
 }
 
+void widget_toggle_film(Widget *widget) {
+    const char *path = widget->demo ? "demo.gif" : "widget.gif";
+    if (!widget->film.is_on) {
+        widget_film_begin(&widget->film);
+        return;
+    }
+    int count = widget->film.count;
+    if (widget_film_save(&widget->film, path))
+        widget_say(widget, false, "%s: %d frames", path, count);
+    else
+        widget_say(widget, true, "%s", fail_text());
+}
+
 bool widget_write_state(Widget *widget) {
     if (!widget->state_path[0] || scene_equals(&widget->written, &widget->scene)) return true;
     if (!scene2d_save(widget->state_path, &widget->scene)) return false;
@@ -54,5 +67,10 @@ bool widget_write_state(Widget *widget) {
 }
 
 bool widget_write_places(Widget *widget) {
-    return places_write(widget->places_path, &widget->places, widget->screen, widget->canvas.view.zoom);
+    const PlacesNumber numbers[] = {{"zoom", widget->canvas.view.zoom}, // points a canvas px has
+                                    {"probe x", widget->probe[0]},      {"probe y", widget->probe[1]},
+                                    {"active", widget->active},         {"step", widget->step},
+                                    {"playing", widget->is_playing},    {"asking", widget->is_asking}};
+    return places_write(widget->places_path, &widget->places, widget->screen, numbers,
+                        sizeof numbers / sizeof numbers[0]);
 }

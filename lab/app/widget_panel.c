@@ -106,10 +106,10 @@ static void switches(Widget *widget) {
     gui_hint("H");
     gui_same_line(1);
     stale |= gui_switch("Discs", &widget->settings.discs);
-    gui_hint("G: each blob as its flat 1σ ellipse, so that one sees where they lie");
+    gui_hint("E: each blob as its flat 1σ ellipse, so that one sees where they lie");
     stale |= gui_switch("Background unattenuated", &widget->settings.background_unattenuated);
     gui_hint(
-        "B: as the lesson's own script does it. Its sum starts with the background and never multiplies it by what "
+        "U: as the lesson's own script does it. Its sum starts with the background and never multiplies it by what "
         "the blobs let through, so the weights add up to more than 1: opaque blobs become brighter by the "
         "background's colour. Correct is to add T · background at the end.");
     if (widget->settings.background_unattenuated)

@@ -179,25 +179,110 @@ static void a_step_looks_the_same_from_both_sides(void **state) {
     demo_free(&demo);
 }
 
+// ---- as a lecturer uses it; all tests share one window ----
+
+static void start_lecture(void) {
+    session_need_screen();
+    if (!session_is_alive()) {
+        char *demos = realpath("lab/app/demos", NULL); // the session runs elsewhere
+        setenv("SPLATLAB_DEMOS", demos, 1);
+        free(demos);
+        session_start("demo", "popping", NULL);
+    }
+    session_do("key 1"); // popping, from its first step
+}
+
+static int end_lecture(void **state) {
+    (void)state;
+    session_end();
+    return 0;
+}
+
 static void the_arrows_step_and_g_films(void **state) {
     (void)state;
-    session_need_screen();
-    char *demos = realpath("lab/app/demos", NULL); // the session runs elsewhere
-    setenv("SPLATLAB_DEMOS", demos, 1);
-    free(demos);
-    session_start("demo", "popping", NULL);
+    start_lecture();
     session_do("key Right");
     assert_true(session_scene()->blobs[1].depth == 0.9);
     session_do("key x; key g; key Right; key g");
     assert_true(session_scene()->blobs[0].opacity == 0.25);
     assert_true(session_scene()->blobs[1].sigma_x == 130); // what was done by hand before is gone
-    const char *film = support_path(support_scratch(), "demo.gif");
-    for (int tries = 0; tries < 100 && !file_exists(film); tries++)
-        session_do("sleep 0.1"); // it takes a while to write
-    assert_true(file_exists(film));
+    assert_true(file_exists(support_path(support_scratch(), "demo.gif")));
+    session_do("key x; key r");
+    assert_true(session_scene()->blobs[1].sigma_x == 130); // anew
     session_do("key Left key Left key Left");
     assert_true(session_scene()->blobs[1].depth == 1.1);
-    assert_int_equal(session_end(), 0);
+}
+
+static void digits_choose_the_demo(void **state) {
+    (void)state;
+    start_lecture();
+    for (int i = 0; i < NAME_COUNT; i++) {
+        Demo demo;
+        assert_true(demo_load(NAMES[i], &demo));
+        session_do("key Right; key %d", i + 1);
+        assert_true(session_number("step") == 0);
+        assert_int_equal(session_scene()->count, demo.steps[0].scene.count);
+        demo_free(&demo);
+    }
+}
+
+static void the_audience_is_asked_before_it_is_answered(void **state) {
+    (void)state;
+    start_lecture();
+    session_do("key a; key Right");
+    assert_true(session_number("step") == 0 && session_number("asking") == 1);
+    assert_true(session_scene()->blobs[1].depth == 1.1); // nothing is given away
+    session_do("key Left");
+    assert_true(session_number("step") == 0 && session_number("asking") == 0);
+    session_do("key Right; key Right");
+    assert_true(session_number("step") == 1 && session_number("asking") == 0);
+    assert_true(session_scene()->blobs[1].depth == 0.9);
+    session_do("key a; key Left; key Right");
+    assert_true(session_number("step") == 1); // at once
+}
+
+static void space_plays_and_freezes(void **state) {
+    (void)state;
+    start_lecture();
+    session_do("key space");
+    assert_true(session_number("playing") == 1);
+    session_do("key space");
+    assert_true(session_number("playing") == 0 && session_number("step") == 0);
+}
+
+static void b_hides_the_panel_and_plus_enlarges_the_text(void **state) {
+    (void)state;
+    start_lecture();
+    double middle[2], small[2], large[2];
+    session_place("canvas", middle, small);
+    assert_true(session_has_place("Add"));
+    session_do("key b; mousemove 3 3"); // places are those of the frame before
+    assert_false(session_has_place("Add"));
+    session_place("canvas", middle, large);
+    assert_true(large[0] == SESSION_WIDTH && small[0] < large[0]);
+    session_do("key b; mousemove 4 4");
+    session_place("Add", middle, small);
+    session_do("key plus key plus; mousemove 3 3");
+    session_place("Add", middle, large);
+    assert_true(large[1] > 1.1 * small[1]);
+    session_do("key minus key minus; mousemove 4 4");
+    session_place("Add", middle, large);
+    assert_true(large[1] == small[1]);
+}
+
+static void p_pins_the_pixel(void **state) {
+    (void)state;
+    start_lecture();
+    double middle[2], size[2];
+    session_place("canvas", middle, size);
+    assert_true(session_number("probe x") == 480.5); // the step pins it
+    session_do("mousemove %.0f %.0f; mousemove %.0f %.0f", middle[0] - 50, middle[1], middle[0] - 60, middle[1]);
+    assert_true(session_number("probe x") == 480.5);
+    session_do("key p; mousemove %.0f %.0f", middle[0] - 50, middle[1]);
+    assert_true(session_number("probe x") < 450);
+    double pinned = session_number("probe x");
+    session_do("key p; mousemove %.0f %.0f", middle[0] + 50, middle[1]);
+    assert_true(session_number("probe x") == pinned);
 }
 
 // Its lines need more vertices than sixteen bits count.
@@ -259,9 +344,14 @@ int main(void) {
         cmocka_unit_test(what_is_seen_through_follows_the_opacity),
         cmocka_unit_test(a_step_looks_the_same_from_both_sides),
         cmocka_unit_test(the_arrows_step_and_g_films),
+        cmocka_unit_test(digits_choose_the_demo),
+        cmocka_unit_test(the_audience_is_asked_before_it_is_answered),
+        cmocka_unit_test(space_plays_and_freezes),
+        cmocka_unit_test(b_hides_the_panel_and_plus_enlarges_the_text),
+        cmocka_unit_test(p_pins_the_pixel),
         cmocka_unit_test(a_walk_of_two_thousand_steps_is_drawn),
         cmocka_unit_test(broken_files_are_named),
         cmocka_unit_test(wrong_usage_ends_with_exit_code_2),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, end_lecture);
 }

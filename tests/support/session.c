@@ -208,6 +208,14 @@ void session_place(const char *label, double middle[2], double size[2]) {
     }
 }
 
+bool session_has_place(const char *label) {
+    json_t *root;
+    if (!json_read(places_path, &root)) fail_msg("%s", fail_text());
+    bool found = json_has(root, label);
+    json_decref(root);
+    return found;
+}
+
 double session_number(const char *name) {
     double value;
     read_numbers(places_path, name, &value, 1);

@@ -31,6 +31,7 @@ const char *session_bytes(void); // the state file itself, likewise
 
 // Where a control is, by its label: the middle, px of the window. And the value under that name: "zoom".
 void session_place(const char *label, double middle[2], double size[2]);
+bool session_has_place(const char *label);
 double session_number(const char *name);
 double session_state(const char *name);                       // a number of the state file, where that holds no scene
 void session_point(const double canvas[2], double window[2]); // a point of the canvas, in the first view
