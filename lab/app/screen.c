@@ -93,7 +93,8 @@ bool screen_begin(Screen *screen, bool is_moving) {
     screen->began_s = clock_seconds();
     follow_size(screen, width, height);
     gui_frame_begin(width, height, 0);
-    if (screen->window) screen->marks += window_key_count(screen->window, GLFW_KEY_F12, 0);
+    for (int held = 0; screen->window && held <= (GUI_SHIFT | GUI_CTRL); held++)
+        screen->marks += window_key_count(screen->window, GLFW_KEY_F12, held);
     return true;
 }
 

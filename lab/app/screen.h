@@ -35,7 +35,9 @@ bool screen_end(Screen *screen);  // completes the frame; false when the screens
 void screen_show(Screen *screen); // it appears
 
 bool screen_is_window(const Screen *screen);
-long screen_marks(const Screen *screen); // how often F12 went down: a script's question whether all before it is done
+long screen_marks(
+    const Screen
+        *screen); // how often F12 went down, with whatever is held: a script's question whether all before it is done
 double screen_work_ms(const Screen *screen); // from begin to shown, mean of the last frames, without waiting
 void screen_zoom(Screen *screen,
                  int steps); // larger (1) or smaller (-1) text, for the last row of the hall; 0: as it was

@@ -178,13 +178,92 @@ static void a_saved_scene_is_loaded_again(void **state) {
     free(saved);
 }
 
+static void zoom_and_pan_move_the_view_and_nothing_else(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2], fitted = session_number("zoom");
+    char *first = strdup(session_bytes());
+    session_place("canvas", middle, size);
+    session_do("mousemove %.0f %.0f; keydown ctrl click 4; keyup ctrl", middle[0], middle[1]);
+    support_near(session_number("zoom"), 1.15 * fitted, 1e-9, "a notch of the wheel");
+    session_do("key ctrl+plus");
+    support_near(session_number("zoom"), 1.15 * 1.25 * fitted, 1e-9, "a press of the key");
+    // What is dragged 70 px to the right is found there.
+    double before = session_number("probe x"), zoom = session_number("zoom");
+    session_do("mousedown 3; mousemove %.0f %.0f; mouseup 3; mousemove %.0f %.0f", middle[0] + 70, middle[1],
+               middle[0] + 1, middle[1]);
+    support_near(session_number("probe x"), before + (1 - 70) / zoom, 1.01, "the pixel under the mouse");
+    session_do("key 0; mousemove 2 2");
+    support_near(session_number("zoom"), fitted, 1e-9, "all of the canvas");
+    assert_string_equal(session_bytes(), first);
+    free(first);
+}
+
+static void hiding_the_panel_and_full_screen_come_back(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2], fitted = session_number("zoom");
+    session_do("key b; mousemove 2 2");
+    session_place("canvas", middle, size);
+    support_near(size[0], SESSION_WIDTH, 1e-9, "as wide as the window");
+    session_do("key b; mousemove 3 3");
+    support_near(session_number("zoom"), fitted, 1e-9, "as it was");
+    session_do("key F11; mousemove 2 2; key F11; mousemove 3 3");
+    support_near(session_number("zoom"), fitted, 1e-9, "as it was");
+}
+
+static void a_colour_is_dragged_and_undone(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2];
+    double before = session_scene()->blobs[0].rgb[0];
+    session_place("colour", middle, size);
+    session_drag(middle[0] - size[0] / 2 + 40, middle[1], middle[0] - size[0] / 2 - 60, middle[1]); // red's field
+    double after = session_scene()->blobs[0].rgb[0];
+    assert_true(after < before);
+    session_do("key ctrl+z");
+    assert_true(session_scene()->blobs[0].rgb[0] == before);
+}
+
+// X Y T O and the brackets: every slider has its key.
+static void every_slider_has_a_key(void **state) {
+    (void)state;
+    start_widget();
+    Blob before = session_scene()->blobs[0];
+    int rank = scene2d_rank(session_scene(), 0);
+    session_do("key x; key y; key t; key shift+o; key bracketleft");
+    Blob after = session_scene()->blobs[0];
+    support_near(after.sigma_x, 1.05 * before.sigma_x, 1e-9, "X");
+    support_near(after.sigma_y, 1.05 * before.sigma_y, 1e-9, "Y");
+    support_near(after.theta_rad, before.theta_rad + M_PI / 36, 1e-9, "T");
+    support_near(after.opacity, before.opacity - 0.05, 1e-9, "Shift O");
+    assert_int_equal(scene2d_rank(session_scene(), 0), rank - 1);
+    session_do("key shift+x; key shift+y; key shift+t; key o; key bracketright");
+    after = session_scene()->blobs[0];
+    support_near(after.sigma_x, before.sigma_x, 1e-9, "Shift X");
+    support_near(after.theta_rad, before.theta_rad, 1e-9, "Shift T");
+    assert_int_equal(scene2d_rank(session_scene(), 0), rank);
+}
+
+static void a_click_chooses_the_blob_in_front(void **state) {
+    (void)state;
+    start_widget();
+    double at[2];
+    session_point(session_scene()->blobs[3].mean, at); // teal, in front of orange
+    session_do("mousemove %.0f %.0f; click 1", at[0], at[1]);
+    assert_true(session_number("active") == 3);
+    session_do("key Tab");
+    assert_true(session_number("active") == 4);
+}
+
 // ---- anything goes ----
 
-static const char *const KEYS[] = {
-    "x",      "shift+x", "y",      "shift+y", "t",         "shift+t",     "o",      "shift+o", "n",      "d",
-    "Delete", "Tab",     "1",      "7",       "b",         "g",           "h",      "l",       "p",      "m",
-    "F1",     "Escape",  "0",      "plus",    "minus",     "bracketleft", "F11",    "Up",      "Left",   "Next",
-    "ctrl+z", "ctrl+y",  "ctrl+r", "ctrl+s",  "ctrl+plus", "ctrl+minus",  "ctrl+o", "space",   "Return", "ctrl+e"};
+static const char *const KEYS[] = {"x",       "shift+x",   "y",          "shift+y", "t",      "shift+t", "o",
+                                   "shift+o", "n",         "d",          "Delete",  "Tab",    "1",       "7",
+                                   "b",       "e",         "u",          "g",       "h",      "l",       "p",
+                                   "m",       "F1",        "Escape",     "0",       "plus",   "minus",   "bracketleft",
+                                   "F11",     "Up",        "Left",       "Next",    "ctrl+z", "ctrl+y",  "ctrl+r",
+                                   "ctrl+s",  "ctrl+plus", "ctrl+minus", "ctrl+o",  "space",  "Return",  "ctrl+e"};
 enum { KEY_COUNT = sizeof KEYS / sizeof KEYS[0] };
 
 static void write_event(FILE *script, Rng *rng) {
@@ -194,9 +273,9 @@ static void write_event(FILE *script, Rng *rng) {
     else if (kind < 6)
         fprintf(script, "%s 1\n", rng_below(rng, 2) ? "mousedown" : "mouseup");
     else if (kind < 7)
-        fprintf(script, "click %u\n", 1 + rng_below(rng, 5));
+        fprintf(script, "click --delay 5 %u\n", 1 + rng_below(rng, 5)); // without it, each takes 100 ms
     else
-        fprintf(script, "key %s\n", KEYS[rng_below(rng, KEY_COUNT)]);
+        fprintf(script, "key --delay 5 %s\n", KEYS[rng_below(rng, KEY_COUNT)]);
     if (rng_below(rng, 4) == 0) fprintf(script, "sleep 0.02\n");
 }
 
@@ -268,6 +347,11 @@ int main(void) {
         cmocka_unit_test(a_whole_drag_is_one_step),
         cmocka_unit_test(undo_restores_the_bytes),
         cmocka_unit_test(a_saved_scene_is_loaded_again),
+        cmocka_unit_test(zoom_and_pan_move_the_view_and_nothing_else),
+        cmocka_unit_test(hiding_the_panel_and_full_screen_come_back),
+        cmocka_unit_test(a_colour_is_dragged_and_undone),
+        cmocka_unit_test(every_slider_has_a_key),
+        cmocka_unit_test(a_click_chooses_the_blob_in_front),
         cmocka_unit_test(a_thousand_random_events_do_not_end_it),
         cmocka_unit_test(a_screenshot_shows_the_picture),
         cmocka_unit_test(without_a_display_it_says_what_to_do),
