@@ -11,7 +11,6 @@
 #include "lab/io/json_io.h"
 
 #include <stdio.h>
-#include <string.h>
 
 typedef struct {
     Fit2dOptions fit;
@@ -83,8 +82,9 @@ static bool open_job(const Options *o, const char *path, FitJob *job) {
     if (!path) return fail_usage("fit2d: which photograph? splatlab fit2d PHOTO -o OUT");
     if ((o->size[0] == 0) != (o->size[1] == 0))
         return fail_usage("fit2d: --size %dx%d: want two numbers above 0, or 0x0", o->size[0], o->size[1]);
-    if (!o->live && memcmp(&o->window, &(WindowOptions){0}, sizeof o->window) != 0)
-        return fail_usage("fit2d: the options of a window go with --live");
+    const WindowOptions *w = &o->window;
+    bool any = w->size[0] || w->ui_scale > 0 || w->frames || w->screenshot[0] || w->state_file[0] || w->places_file[0];
+    if (any && !o->live) return fail_usage("fit2d: the options of a window go with --live");
     if (!window_options_check(&o->window, "fit2d")) return false;
     if (!fit_photo_load(path, o->downscale, o->size[0], o->size[1], &photo)) return false;
     int width = photo.width, height = photo.height;

@@ -12,7 +12,7 @@ typedef struct {
 } PlacesNumber;
 
 // Writes { "marks": ..., "NUMBER": ..., "canvas": [x, y, width, height], ... } to the path when it is another text than
-// *written, which it becomes (owned by the caller, NULL at first). In points of the window; marks: screen_marks(); count
+// *written, which it becomes (owned by the caller, NULL at first). In what the window system counts; marks: screen_marks(); count
 // numbers that scripts may want besides. path "": nothing happens.
 bool places_write(const char *path, char **written, const Screen *screen, const PlacesNumber *numbers, int count);
 

@@ -187,9 +187,10 @@ void widget_canvas(Widget *widget, GuiRect place) {
     }
     GuiArea area = gui_area("canvas", place.width, place.height);
     use_mouse(widget, area);
-    int width = (int)fmax(1, place.width), height = (int)fmax(1, place.height);
+    double density = gui_density();
+    int width = (int)fmax(1, place.width * density), height = (int)fmax(1, place.height * density);
     widget_picture(widget, width, height);
-    gui_draw_picture(0, (GuiRect){place.x, place.y, width, height});
+    gui_draw_picture(0, (GuiRect){place.x, place.y, width / density, height / density});
     draw_overlays(widget, area);
     draw_legend(widget, place);
     draw_times(widget, place);

@@ -67,10 +67,13 @@ bool widget_write_state(Widget *widget) {
 }
 
 bool widget_write_places(Widget *widget) {
-    const PlacesNumber numbers[] = {{"zoom", widget->canvas.view.zoom}, // points a canvas px has
-                                    {"probe x", widget->probe[0]},      {"probe y", widget->probe[1]},
-                                    {"active", widget->active},         {"step", widget->step},
-                                    {"playing", widget->is_playing},    {"asking", widget->is_asking}};
+    const PlacesNumber numbers[] = {{"zoom", screen_unit(widget->screen) * widget->canvas.view.zoom},
+                                    {"probe x", widget->probe[0]},
+                                    {"probe y", widget->probe[1]},
+                                    {"active", widget->active},
+                                    {"step", widget->step},
+                                    {"playing", widget->is_playing},
+                                    {"asking", widget->is_asking}};
     return places_write(widget->places_path, &widget->places, widget->screen, numbers,
                         sizeof numbers / sizeof numbers[0]);
 }

@@ -299,6 +299,48 @@ static void a_thousand_random_events_do_not_end_it(void **state) {
     assert_int_equal(session_end(), 0);
 }
 
+// ---- a screen of high resolution ----
+
+static void with_two_px_a_point_the_mouse_is_where_it_points(void **state) {
+    (void)state;
+    session_need_screen();
+    session_end();
+    session_start("widget", "--ui-scale", "2", NULL);
+    double zoom = session_number("zoom"), at[2], middle[2], size[2];
+    Blob before = session_scene()->blobs[0];
+    session_point(before.mean, at);
+    session_drag(round(at[0]), round(at[1]), round(at[0]) + 64, round(at[1]) - 40);
+    Blob after = session_scene()->blobs[0];
+    support_near((after.mean[0] - before.mean[0]) * zoom, 64, 1e-9, "x moved, px");
+    support_near((after.mean[1] - before.mean[1]) * zoom, -40, 1e-9, "y moved, px");
+    session_place("σx", middle, size);
+    session_drag(middle[0], middle[1], middle[0] + size[0] / 4, middle[1]);
+    assert_true(session_scene()->blobs[0].sigma_x > before.sigma_x);
+    assert_int_equal(session_end(), 0);
+}
+
+// The same picture with four times as many px: shrunk, it is nearly the one of a plain screen.
+static void two_px_a_point_are_the_same_picture_sharper(void **state) {
+    (void)state;
+    double sum = 0;
+    Image8 pictures[2];
+    for (int k = 0; k < 2; k++) {
+        char folder[4096];
+        snprintf(folder, sizeof folder, "%s/density_%d", support_scratch(), k);
+        CommandResult r = command_run("demo", "popping", "--headless", "-o", folder, "--size", "1600x1000",
+                                      "--ui-scale", k ? "2" : "1", NULL);
+        command_expect(&r, 0);
+        assert_true(image_load8(support_path(folder, "step_01.png"), &pictures[k]));
+        assert_int_equal(pictures[k].width, k ? 3200 : 1600);
+    }
+    Image8 small = image8_downscale(&pictures[1], 8), plain = image8_downscale(&pictures[0], 4);
+    for (int i = 0; i < plain.width * plain.height * 3; i++) sum += abs(small.bytes[i] - plain.bytes[i]);
+    support_near(sum / (plain.width * plain.height * 3), 0, 1, "mean difference, of 255");
+    image8_destroy(&small);
+    image8_destroy(&plain);
+    for (int k = 0; k < 2; k++) image8_destroy(&pictures[k]);
+}
+
 // ---- the command ----
 
 static void a_screenshot_shows_the_picture(void **state) {
@@ -353,6 +395,8 @@ int main(void) {
         cmocka_unit_test(every_slider_has_a_key),
         cmocka_unit_test(a_click_chooses_the_blob_in_front),
         cmocka_unit_test(a_thousand_random_events_do_not_end_it),
+        cmocka_unit_test(with_two_px_a_point_the_mouse_is_where_it_points),
+        cmocka_unit_test(two_px_a_point_are_the_same_picture_sharper),
         cmocka_unit_test(a_screenshot_shows_the_picture),
         cmocka_unit_test(without_a_display_it_says_what_to_do),
         cmocka_unit_test(a_scene_that_is_wrong_is_named),
