@@ -208,6 +208,10 @@ endif
 test: all $(TESTS) $(KERNELS_COMPILE) ## run every test (minutes)
 	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKER=$(WORKER) tests/run $(TESTS) tests/lint/selftest.py
 
+.PHONY: golden
+golden: all $(BUILD)/tests/app/test_cmd_demo ## take the demos' pictures as they are now for the good ones: look at them first
+	@SPLATLAB_GOLDEN=write SPLATLAB=$(PROGRAM) $(BUILD)/tests/app/test_cmd_demo >/dev/null && git diff --stat tests/golden
+
 .PHONY: test-long
 test-long: all ## what takes longer: Oclgrind, resume, thread count, then all tests under ASan and UBSan
 	@SPLATLAB=$(PROGRAM) tests/run -t 1200 $(wildcard tests/long/check_*)

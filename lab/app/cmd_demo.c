@@ -114,7 +114,7 @@ static bool write_steps(Widget *widget, const char *folder, bool print) {
 
 // ---- both ----
 
-static bool show(const Options *o, const Demo *demo) {
+static bool show(const Options *o, Demo *demo) {
     ScreenOptions screen_options = window_options_screen(&o->window, "splatlab - demo");
     screen_options.headless = o->headless;
     if (o->headless && screen_options.size[0] == 0)
@@ -168,7 +168,9 @@ const Command CMD_DEMO = {
     .summary = "a lecture's demo, step by step: question first, then the answer",
     .details =
         "NAME is popping, anisotropy, psd, opacity, transmittance, early-stop, or your own .json file.\n"
-        "In the window: Right and Left step, R shows the step anew, G begins and ends a film (demo.gif), F1 helps.\n"
+        "In the window: Right and Left step, digits choose another demo, R shows the step anew, A asks the audience\n"
+        "before it shows the answer, B hides the panel, + and - size the text, G begins and ends a film (demo.gif),\n"
+        "Space plays and freezes, F1 helps.\n"
         "  splatlab demo popping\n"
         "  splatlab demo popping --headless -o pictures",
     .run = cmd_demo,

@@ -14,6 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
+const char *const DEMO_NAMES[DEMO_COUNT] = {"popping", "anisotropy", "psd", "opacity", "transmittance", "early-stop"};
+
 // ---- where ----
 
 // The folder of the running program, or "."; owned by the caller.
@@ -26,7 +28,6 @@ static char *program_folder(void) {
 }
 
 static bool find(const char *name, char **path) {
-    static const char *const known[] = {"popping", "anisotropy", "psd", "opacity", "transmittance", "early-stop"};
     if (file_has_ending(name, ".json")) {
         *path = mem_text(name);
         return true;
@@ -47,12 +48,11 @@ static bool find(const char *name, char **path) {
     mem_free(tree);
     if (*path) return true;
     int best;
-    const int count = sizeof known / sizeof *known;
-    for (int i = 0; i < count; i++)
-        if (strcmp(name, known[i]) == 0)
+    for (int i = 0; i < DEMO_COUNT; i++)
+        if (strcmp(name, DEMO_NAMES[i]) == 0)
             return fail("cannot find the demo file %s.json; set SPLATLAB_DEMOS to the folder that holds it", name);
-    if (nearest_find(name, known, count, &best, 1))
-        return fail_usage("there is no demo '%s'; did you mean %s?", name, known[best]);
+    if (nearest_find(name, DEMO_NAMES, DEMO_COUNT, &best, 1))
+        return fail_usage("there is no demo '%s'; did you mean %s?", name, DEMO_NAMES[best]);
     return fail_usage(
         "there is no demo '%s'; want popping, anisotropy, psd, opacity, transmittance, early-stop, or a .json "
         "file",

@@ -19,7 +19,9 @@
 
 #include <stdbool.h>
 
-enum { DEMO_STEPS_MAX = 32 };
+enum { DEMO_STEPS_MAX = 32, DEMO_COUNT = 6 };
+
+extern const char *const DEMO_NAMES[DEMO_COUNT]; // "popping", ...: those that come with the program
 
 typedef enum { DEMO_BLOBS, DEMO_PSD } DemoPage;
 

@@ -1,17 +1,15 @@
 // fit2d_folder.c - names, and the comparison.
 #include "lab/app/fit2d_folder.h"
 
+#include "lab/app/fit_views.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
 #include "lab/io/image_io.h"
-#include "splat2d/raster2d.h"
 #include "splat2d/scene2d_json.h"
 
-#include <math.h>
 #include <stddef.h>
 
-static const float ERROR_GAIN = 4;
 enum { GAP_PX = 4 }; // between the panels
 
 bool fit2d_folder_begin(const char *folder, Fit2dFolder *names) {
@@ -36,28 +34,9 @@ void fit2d_folder_forget(Fit2dFolder *names) {
     *names = (Fit2dFolder){0};
 }
 
-static ImageF error_picture(const ImageF *photo, const ImageF *picture) {
-    ImageF error = imagef_create(photo->width, photo->height, 3);
-    ptrdiff_t values = (ptrdiff_t)photo->width * photo->height * 3;
-    for (ptrdiff_t i = 0; i < values; i++) error.values[i] = ERROR_GAIN * fabsf(photo->values[i] - picture->values[i]);
-    return error;
-}
-
-// Each blob as its ellipse of one standard deviation.
-static ImageF disc_picture(const Scene2d *scene) {
-    ImageF discs = imagef_create(scene->width, scene->height, 3);
-    RasterSettings settings = raster_settings_default();
-    settings.discs = true;
-    Raster2d raster = {0};
-    raster2d_load(&raster, scene, view2d_whole());
-    raster2d_draw(&raster, &settings, &discs, NULL);
-    raster2d_destroy(&raster);
-    return discs;
-}
-
 static bool save_comparison(const char *path, const ImageF *photo, const ImageF *picture, const Scene2d *scene) {
     int right = photo->width + GAP_PX, below = photo->height + GAP_PX;
-    ImageF error = error_picture(photo, picture), discs = disc_picture(scene);
+    ImageF error = fit_view_error(photo, picture), discs = fit_view_discs(scene);
     ImageF sheet = imagef_create(right + photo->width, below + photo->height, 3);
     imagef_paste(&sheet, photo, 0, 0);
     imagef_paste(&sheet, picture, right, 0);

@@ -3,7 +3,8 @@
 //
 // Immediate mode: between gui_frame_begin() and gui_frame_end() every frame says anew what is on the screen; a control
 // writes into the caller's variable. A screen is a window, or (headless) an image that gui_frame_paint() fills with the
-// same triangles. Lengths are in window points; text grows with gui_em(), so layouts are written in ems.
+// same triangles. Lengths are in points; on a screen of high resolution a point is several px (gui_density()). Text grows with
+// gui_em(), so layouts are written in ems.
 #ifndef SPLATLAB_LAB_APP_GUI_H
 #define SPLATLAB_LAB_APP_GUI_H
 
@@ -32,13 +33,15 @@ void gui_open(Window *window, double scale);
 void gui_close(void);
 void gui_set_scale(double scale); // from the next frame on
 double gui_scale(void);
+void gui_set_density(double px_per_point); // likewise; 1 at first
+double gui_density(void);
 
 // ---- a frame ----
 
 // width, height: of a headless screen, ignored with a window. seconds: since the frame before.
 void gui_frame_begin(int width, int height, double seconds);
 void gui_frame_end(void);         // with a window: draws into it
-void gui_frame_paint(Image8 *to); // headless, after gui_frame_end(): 3 channels, the screen's size
+void gui_frame_paint(Image8 *to); // headless, after gui_frame_end(): 3 channels, the screen's size in px
 GuiRect gui_screen(void);         // the whole screen
 double gui_em(void);              // height of a line of GUI_BODY text
 
@@ -92,7 +95,8 @@ typedef struct {
 } GuiArea;
 GuiArea gui_area(const char *name, double width, double height);
 
-// Where the control of that label was in the last whole frame; false when it was not shown. i: 0, 1, ...
+// Where each control was in the last whole frame, as the window system counts (where a mouse would have to go); false behind
+// the last one. i: 0, 1, ...
 bool gui_place(int i, const char **label, GuiRect *place);
 
 // ---- drawing, in the panel that is open; clipped to it ----

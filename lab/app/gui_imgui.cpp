@@ -29,6 +29,7 @@ struct Place {
 struct State {
     Window *window = nullptr;
     double scale = 1, wanted_scale = 1;
+    double density = 1, wanted_density = 1;
     ImFont *fonts[GUI_STYLE_COUNT] = {};
     unsigned textures[GUI_PICTURE_COUNT] = {}; // of the window
     Image8 pictures[GUI_PICTURE_COUNT] = {};   // headless
@@ -52,18 +53,23 @@ const FontFile FONT_FILES[GUI_STYLE_COUNT] = {{"DejaVuSans.ttf", 1},     {"DejaV
 const ImWchar GLYPHS[] = {0x20,   0xff,   0x1d40, 0x1d40, 0x370,  0x3ff,  0x2010, 0x2040, 0x2070, 0x209f,
                           0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0x2713, 0x2717, 0};
 
+// What an atlas's font measures in points: its glyphs are drawn for px.
+float font_size(const ImFont *font) { return font->FontSize * font->Scale; }
+
 // The glyphs of all styles at the wanted size. Without the font files there is the library's own font, which has no Greek.
 void load_fonts() {
     ImFontAtlas *atlas = ImGui::GetIO().Fonts;
     gui.scale = gui.wanted_scale;
+    gui.density = gui.wanted_density;
     atlas->Clear();
     for (int style = 0; style < GUI_STYLE_COUNT; style++) {
-        float size = std::round(static_cast<float>(BODY_PX * FONT_FILES[style].size * gui.scale));
+        float size = std::round(static_cast<float>(BODY_PX * FONT_FILES[style].size * gui.scale * gui.density));
         char *path = font_file_find(FONT_FILES[style].name);
         ImFontConfig own;
         own.SizePixels = size;
         gui.fonts[style] = path ? atlas->AddFontFromFileTTF(path, size, nullptr, GLYPHS) : atlas->AddFontDefault(&own);
         mem_free(path);
+        gui.fonts[style]->Scale = static_cast<float>(1 / gui.density);
     }
     atlas->Build();
     if (gui.window) {
@@ -104,8 +110,8 @@ void set_style() {
         {ImGuiCol_FrameBg, 0x262b38ff},
         {ImGuiCol_FrameBgHovered, 0x2f3546ff},
         {ImGuiCol_FrameBgActive, 0x363d50ff},
-        {ImGuiCol_SliderGrab, 0x7aa2f7ff},
-        {ImGuiCol_SliderGrabActive, 0xa9c3ffff},
+        {ImGuiCol_SliderGrab, 0x4a6cc4ff},
+        {ImGuiCol_SliderGrabActive, 0x6c8fe6ff},
         {ImGuiCol_Button, 0x2a3040ff},
         {ImGuiCol_ButtonHovered, 0x3a4258ff},
         {ImGuiCol_ButtonActive, 0x4a5470ff},
@@ -173,10 +179,14 @@ void gui_set_scale(double scale) { gui.wanted_scale = scale; }
 
 double gui_scale(void) { return gui.scale; }
 
+void gui_set_density(double px_per_point) { gui.wanted_density = px_per_point; }
+
+double gui_density(void) { return gui.density; }
+
 // ---- a frame ----
 
 void gui_frame_begin(int width, int height, double seconds) {
-    if (gui.wanted_scale != gui.scale) {
+    if (gui.wanted_scale != gui.scale || gui.wanted_density != gui.density) {
         load_fonts();
         set_style();
     }
@@ -184,6 +194,11 @@ void gui_frame_begin(int width, int height, double seconds) {
     if (gui.window) {
         ImGui_ImplOpenGL3_NewFrame();
         ImGui_ImplGlfw_NewFrame();
+        // The library counts as the window system does; a point of ours is `unit` of its units.
+        double unit = window_unit(gui.window);
+        io.DisplaySize = vec2(width, height);
+        io.DisplayFramebufferScale = vec2(gui.density, gui.density);
+        if (ImGui::IsMousePosValid(&io.MousePos)) io.MousePos = vec2(io.MousePos.x / unit, io.MousePos.y / unit);
     } else {
         io.DisplaySize = vec2(width, height);
         io.DeltaTime = static_cast<float>(seconds > 0 ? seconds : 1.0 / 60);
@@ -200,21 +215,30 @@ void gui_frame_end(void) {
     if (gui.window) ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+static std::vector<PaintVertex> in_px(const ImDrawList *list) {
+    auto points = reinterpret_cast<const PaintVertex *>(list->VtxBuffer.Data);
+    std::vector<PaintVertex> vertices(points, points + list->VtxBuffer.Size);
+    for (PaintVertex &v : vertices) v.x *= static_cast<float>(gui.density), v.y *= static_cast<float>(gui.density);
+    return vertices;
+}
+
 void gui_frame_paint(Image8 *to) {
     static_assert(sizeof(ImDrawVert) == sizeof(PaintVertex), "same vertex");
     static_assert(sizeof(ImDrawIdx) == sizeof(uint16_t), "same index");
     const ImDrawData *data = ImGui::GetDrawData();
     for (int i = 0; i < data->CmdListsCount; i++) {
         const ImDrawList *list = data->CmdLists[i];
+        const std::vector<PaintVertex> vertices = in_px(list);
+        const double density = gui.density;
         for (const ImDrawCmd &command : list->CmdBuffer) {
-            const int clip[4] = {static_cast<int>(command.ClipRect.x), static_cast<int>(command.ClipRect.y),
-                                 static_cast<int>(command.ClipRect.z), static_cast<int>(command.ClipRect.w)};
+            const int clip[4] = {
+                static_cast<int>(command.ClipRect.x * density), static_cast<int>(command.ClipRect.y * density),
+                static_cast<int>(command.ClipRect.z * density), static_cast<int>(command.ClipRect.w * density)};
             const Image8 *image = static_cast<const Image8 *>(command.GetTexID());
             bool is_picture = image >= gui.pictures && image < gui.pictures + GUI_PICTURE_COUNT;
             PaintTexture texture = {image, is_picture ? gui.smooth[image - gui.pictures] : true};
-            auto vertices = reinterpret_cast<const PaintVertex *>(list->VtxBuffer.Data + command.VtxOffset);
-            paint_triangles(to, clip, texture, vertices, list->IdxBuffer.Data + command.IdxOffset,
-                            static_cast<int>(command.ElemCount));
+            paint_triangles(to, clip, texture, vertices.data() + command.VtxOffset,
+                            list->IdxBuffer.Data + command.IdxOffset, static_cast<int>(command.ElemCount));
         }
     }
 }
@@ -224,7 +248,7 @@ GuiRect gui_screen(void) {
     return {0, 0, size.x, size.y};
 }
 
-double gui_em(void) { return gui.fonts[GUI_BODY]->FontSize; }
+double gui_em(void) { return font_size(gui.fonts[GUI_BODY]); }
 
 // ---- mouse and keys ----
 
@@ -408,7 +432,9 @@ GuiArea gui_area(const char *name, double width, double height) {
 bool gui_place(int i, const char **label, GuiRect *place) {
     if (i < 0 || i >= static_cast<int>(gui.shown.size())) return false;
     *label = gui.shown[static_cast<size_t>(i)].label.c_str();
-    *place = gui.shown[static_cast<size_t>(i)].rect;
+    const GuiRect &r = gui.shown[static_cast<size_t>(i)].rect;
+    double unit = gui.window ? window_unit(gui.window) : gui.density;
+    *place = {r.x * unit, r.y * unit, r.width * unit, r.height * unit};
     return true;
 }
 
@@ -459,15 +485,15 @@ void gui_draw_text(GuiStyle style, double x, double y, GuiColour colour, const c
     std::string text = printed(format, values);
     va_end(values);
     ImFont *font = gui.fonts[style];
-    canvas()->AddText(font, font->FontSize, vec2(std::round(x), std::round(y)), packed(colour), text.c_str());
+    canvas()->AddText(font, font_size(font), vec2(std::round(x), std::round(y)), packed(colour), text.c_str());
 }
 
 double gui_text_width(GuiStyle style, const char *text) {
     ImFont *font = gui.fonts[style];
-    return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text).x;
+    return font->CalcTextSizeA(font_size(font), FLT_MAX, 0, text).x;
 }
 
-double gui_text_height(GuiStyle style) { return gui.fonts[style]->FontSize; }
+double gui_text_height(GuiStyle style) { return font_size(gui.fonts[style]); }
 
 void gui_picture_fill(int picture, const Image8 *image, bool smooth) {
     gui.smooth[picture] = smooth;

@@ -9,6 +9,7 @@
 #include "lab/base/mem.h"
 #include "lab/io/image_io.h"
 
+#include <GLFW/glfw3.h>
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@
 enum { DESIGN_WIDTH = 1600, DESIGN_HEIGHT = 1000 };
 static const double SCALE_LOW = 0.55, SCALE_HIGH = 4, ZOOM_STEP = 1.1;
 static const double IDLE_WAIT_S = 0.2;
-enum { LIVELY_FRAMES = 4 }; // drawn after an event, so that controls settle
+enum { SETTLING_FRAMES = 2, LIVELY_FRAMES = 4 }; // drawn after an event, so that controls settle
 static const float BACKDROP[3] = {0.05f, 0.06f, 0.08f};
 
 struct Screen {
@@ -25,18 +26,19 @@ struct Screen {
     int frame;      // shown so far
     int lively;     // frames that are drawn without waiting
     int zoom;       // steps
+    long marks;
     bool quit;
     double began_s, work_ms;
 };
 
 Screen *screen_open(const ScreenOptions *options) {
-    bool chosen = options->size[0] > 0;
     Screen *screen = mem_alloc(1, sizeof *screen);
     screen->options = *options;
     screen->lively = LIVELY_FRAMES;
-    if (!chosen) screen->options.size[0] = DESIGN_WIDTH, screen->options.size[1] = DESIGN_HEIGHT;
+    if (options->size[0] == 0) screen->options.size[0] = DESIGN_WIDTH, screen->options.size[1] = DESIGN_HEIGHT;
     if (!options->headless) {
-        screen->window = window_create(options->title, screen->options.size[0], screen->options.size[1], !chosen);
+        screen->window =
+            window_create(options->title, screen->options.size[0], screen->options.size[1], options->density);
         if (!screen->window) {
             mem_free(screen);
             return NULL;
@@ -56,6 +58,10 @@ void screen_close(Screen *screen) {
 
 bool screen_is_window(const Screen *screen) { return screen->window != NULL; }
 
+double screen_unit(const Screen *screen) { return screen->window ? window_unit(screen->window) : 1; }
+
+long screen_marks(const Screen *screen) { return screen->marks; }
+
 double screen_work_ms(const Screen *screen) { return screen->work_ms; }
 
 static void wait_for_events(Screen *screen, bool is_moving) {
@@ -67,6 +73,11 @@ static void wait_for_events(Screen *screen, bool is_moving) {
         screen->lively = LIVELY_FRAMES;
     else if (screen->lively > 0)
         screen->lively--;
+}
+
+static double screen_density(const Screen *screen) {
+    if (screen->window) return window_density(screen->window);
+    return screen->options.density > 0 ? screen->options.density : 1;
 }
 
 // In steps, since each new size makes all glyphs anew.
@@ -87,14 +98,18 @@ bool screen_begin(Screen *screen, bool is_moving) {
         window_size(screen->window, &width, &height);
     }
     screen->began_s = clock_seconds();
+    gui_set_density(screen_density(screen));
     follow_size(screen, width, height);
     gui_frame_begin(width, height, 0);
+    for (int held = 0; screen->window && held <= (GUI_SHIFT | GUI_CTRL); held++)
+        screen->marks += window_key_count(screen->window, GLFW_KEY_F12, held);
     return true;
 }
 
 bool screen_read(Screen *screen, Image8 *image) {
     if (screen->window) return window_read(screen->window, image);
-    *image = image8_create(screen->options.size[0], screen->options.size[1], 3);
+    double density = screen_density(screen);
+    *image = image8_create((int)(screen->options.size[0] * density), (int)(screen->options.size[1] * density), 3);
     for (int i = 0; i < image->width * image->height * 3; i++)
         image->bytes[i] = (uint8_t)lroundf(255 * BACKDROP[i % 3]);
     gui_frame_paint(image);
@@ -116,6 +131,7 @@ bool screen_end(Screen *screen) {
     if (is_last && screen->options.screenshot && screen->options.screenshot[0])
         good = screen_save(screen, screen->options.screenshot);
     double work_ms = 1e3 * (clock_seconds() - screen->began_s);
+    if (screen->frame <= SETTLING_FRAMES) return good; // glyphs and shaders are made
     screen->work_ms = screen->work_ms > 0 ? 0.9 * screen->work_ms + 0.1 * work_ms : work_ms;
     return good;
 }

@@ -152,9 +152,7 @@ static void optimiser(TrapPage *page) {
     gui_hint("Adam's learning rate, the same for both walks");
 }
 
-void trap_page_panel(TrapPage *page, GuiRect panel) {
-    if (page->is_running) trap_page_advance(page, 1);
-    (void)panel;
+void trap_page_panel(TrapPage *page) {
     gui_text(GUI_TITLE, INK, "The PSD trap");
     gui_paragraph(
         GUI_SMALL, INK_QUIET,

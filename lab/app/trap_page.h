@@ -12,7 +12,7 @@ enum { TRAP_PICTURE_COUNT = 3 }; // the photograph, the raw walk, the factored w
 
 typedef struct {
     PsdTrap trap;
-    bool is_running; // one step of the optimiser a frame
+    bool is_running; // its owner takes one step of the optimiser a frame
     double turn_rad; // of the cone, about its axis
     bool is_stale;   // the pictures are of an earlier step
     Image8 pictures[TRAP_PICTURE_COUNT];
@@ -24,9 +24,9 @@ void trap_page_destroy(TrapPage *page); // accepts NULL
 void trap_page_advance(TrapPage *page, int steps);
 void trap_page_restart(TrapPage *page);
 
-// One frame: sliders and buttons in `panel`, everything that is looked at in `stage`. first_picture: of gui_picture_fill(),
-// from where TRAP_PICTURE_COUNT are used.
-void trap_page_panel(TrapPage *page, GuiRect panel);
+// One frame: sliders and buttons in the panel that is open, everything that is looked at in `stage`. first_picture: of
+// gui_picture_fill(), from where TRAP_PICTURE_COUNT are used.
+void trap_page_panel(TrapPage *page);
 void trap_page_stage(TrapPage *page, GuiRect stage, int first_picture);
 
 // The parts of the stage: trap_cone.c, trap_plot.c

@@ -44,8 +44,7 @@ void widget_end(Widget *widget) {
     mem_free(widget->places);
     trap_page_destroy(widget->trap);
     scene2d_destroy(&widget->compared);
-    for (int i = 0; i < widget->film_count; i++) image8_destroy(&widget->film[i]);
-    mem_free(widget->film);
+    widget_film_destroy(&widget->film);
 }
 
 void widget_set_scene(Widget *widget, Scene2d scene) {
@@ -55,7 +54,7 @@ void widget_set_scene(Widget *widget, Scene2d scene) {
     if (widget->active >= scene.count) widget->active = scene.count - 1;
     widget->drag.grip = GRIP_NONE;
     widget->is_stale = true;
-    if (!same_canvas) canvas2d_fit(&widget->canvas, &widget->scene);
+    if (!same_canvas) widget_fit(widget);
 }
 
 void widget_say(Widget *widget, bool is_bad, const char *format, ...) {
@@ -84,27 +83,40 @@ void widget_show_page(Widget *widget, WidgetPage page) {
     widget->drag.grip = GRIP_NONE;
 }
 
+// That a film is being made, and how long it is.
+static void show_film(const Widget *widget, GuiRect stage) {
+    double em = gui_em(), width = 8.5 * em;
+    GuiRect box = {stage.x + stage.width - width - 0.6 * em, stage.y + 0.5 * em, width, 1.8 * em};
+    gui_overlay_begin("film", box, CARD, 0, false);
+    gui_draw_disc(box.x + em, box.y + 0.9 * em, 0.35 * em, BAD);
+    gui_draw_text(GUI_BODY, box.x + 2 * em, box.y + 0.4 * em, INK, "film: %d", widget->film.count);
+    gui_panel_end();
+}
+
 static void show_blobs(Widget *widget, GuiRect stage, GuiRect panel) {
     double pixel = fmin(PIXEL_EMS * gui_em(), stage.height / 2);
     GuiRect canvas = {stage.x, stage.y, stage.width, stage.height - pixel};
     widget_canvas(widget, canvas);
-    widget_panel(widget, panel);
+    if (!widget->hides_panel) widget_panel(widget, panel);
     widget_pixel(widget, (GuiRect){stage.x, stage.y + canvas.height, stage.width, pixel});
     show_note(widget, canvas);
 }
 
 static void show_trap(Widget *widget, GuiRect stage, GuiRect panel) {
-    gui_panel_begin("panel", panel, PANEL, 0.9);
-    widget_page_choice(widget);
-    trap_page_panel(widget->trap, panel);
-    gui_panel_end();
+    if (!widget->hides_panel) {
+        gui_panel_begin("panel", panel, PANEL, 0.9);
+        widget_page_choice(widget);
+        trap_page_panel(widget->trap);
+        gui_panel_end();
+    }
+    if (widget->trap->is_running) trap_page_advance(widget->trap, 1);
     trap_page_stage(widget->trap, stage, 1);
     show_note(widget, stage);
 }
 
 bool widget_frame(Widget *widget) {
     GuiRect whole = gui_screen();
-    double panel = fmin(PANEL_EMS * gui_em(), whole.width / 2);
+    double panel = widget->hides_panel ? 0 : fmin(PANEL_EMS * gui_em(), whole.width / 2);
     double strip = widget->demo ? DEMO_EMS * gui_em() : 0;
     GuiRect stage = {0, strip, whole.width - panel, whole.height - strip};
     GuiRect side = {stage.width, 0, panel, whole.height};
@@ -116,17 +128,25 @@ bool widget_frame(Widget *widget) {
     else
         show_trap(widget, stage, side);
     if (widget->demo) widget_demo_strip(widget, (GuiRect){0, 0, stage.width, strip});
-    if (widget->shows_help) widget_help(widget);
-    if (!gui_is_holding()) history_record(&widget->history, &widget->scene, widget->active);
+    if (widget->is_asking) widget_demo_question(widget, stage);
+    if (widget->film.is_on) show_film(widget, stage);
+    widget_help(widget);
+    if (!gui_is_holding() || gui_mouse().released[GUI_LEFT]) history_record(&widget->history, &widget->scene, widget->active);
     return widget_write_state(widget) && widget_write_places(widget);
+}
+
+// A film needs frames even where nothing happens.
+static bool is_moving(Widget *widget) {
+    bool walks = widget->page == PAGE_TRAP && widget->trap->is_running;
+    return (widget->demo && widget_demo_plays(widget)) || walks || widget->film.is_on;
 }
 
 bool widget_loop(Widget *widget) {
     bool good = true;
-    while (good && screen_begin(widget->screen, widget->trap && widget->trap->is_running)) {
+    while (good && screen_begin(widget->screen, is_moving(widget))) {
         good = widget_frame(widget);
         good = screen_end(widget->screen) && good;
-        widget_keep_frame(widget);
+        if (!widget_film_keep(&widget->film, widget->screen)) widget_toggle_film(widget);
         screen_show(widget->screen);
     }
     return good;

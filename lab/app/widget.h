@@ -1,7 +1,7 @@
 // widget.h - the 2-D lesson in a window: its state, and the parts that each draw a piece of a frame and act on it.
 //
 // One frame: widget_frame() lays the screen out, then each part shows its piece and changes the scene at once. At the end
-// of a frame in which nothing is held, a changed scene becomes a step of the history: a whole drag is one step.
+// of a frame in which nothing is held, or the mouse lets go, a changed scene becomes a step of the history: a whole drag is one.
 #ifndef SPLATLAB_LAB_APP_WIDGET_H
 #define SPLATLAB_LAB_APP_WIDGET_H
 
@@ -12,6 +12,7 @@
 #include "lab/app/history.h"
 #include "lab/app/screen.h"
 #include "lab/app/trap_page.h"
+#include "lab/app/widget_film.h"
 #include "splat2d/pixel_walk.h"
 
 #include <stdbool.h>
@@ -22,7 +23,7 @@ typedef enum { LAYER_COLOUR, LAYER_TRANSMITTANCE, LAYER_VISITS } WidgetLayer;
 // Which page is shown: the blobs, or the PSD trap.
 typedef enum { PAGE_BLOBS, PAGE_TRAP } WidgetPage;
 
-enum { WIDGET_PATH_BYTES = 1024, FILM_FRAMES_MAX = 240 };
+enum { WIDGET_PATH_BYTES = 1024 };
 
 typedef struct {
     Screen *screen; // borrowed
@@ -35,8 +36,8 @@ typedef struct {
     RasterSettings settings;
 
     Canvas2d canvas;
-    bool is_placed; // the canvas has had its first view
-    Drag2d drag;    // grip GRIP_NONE: nothing is dragged
+    bool is_moved; // by hand, zoomed or panned; else all of the canvas is shown, however large its place is
+    Drag2d drag;   // grip GRIP_NONE: nothing is dragged
 
     // The picture, and what it was made of.
     Raster2d raster; // of the whole canvas, one to one, after each widget_picture()
@@ -48,6 +49,7 @@ typedef struct {
     bool is_stale;       // something changed since it was made
     WidgetLayer layer;
     bool shows_outlines;
+    bool hides_panel;
 
     // The pixel that is explained.
     double probe[2]; // px of the canvas
@@ -73,13 +75,15 @@ typedef struct {
     double mine_looked_s; // when their files were last looked at
 
     // A lecture.
-    const Demo *demo; // borrowed; NULL: none
-    int step;         // of the demo
-    Scene2d compared; // for which psnr was computed
-    double psnr;      // dB, of the scene against the step that the demo compares to
-    bool is_filming;  // each frame is kept for a GIF
-    Image8 *film;     // (film_count), owned
-    int film_count;
+    Demo *demo;         // borrowed, and filled anew when another is chosen; NULL: none
+    int step;           // of the demo
+    Scene2d compared;   // for which psnr was computed
+    double psnr;        // dB, of the scene against the step that the demo compares to
+    bool asks_audience; // a step's question fills the picture before the next step answers it
+    bool is_asking;     // the question is shown
+    bool is_playing;    // the steps follow by themselves
+    double stepped_s;   // when the step was shown
+    WidgetFilm film;
 } Widget;
 
 // scene: becomes the widget's own.
@@ -109,12 +113,13 @@ void widget_maths(const Blob *blob);                        // widget_maths.c: S
 void widget_pixel(Widget *widget, GuiRect place);           // widget_pixel.c: one pixel's walk, and T along it
 void widget_help(Widget *widget);                           // widget_help.c: the overlay of F1
 void widget_demo_strip(Widget *widget, GuiRect place);      // widget_demo.c: caption, question, steps
-void widget_demo_keys(Widget *widget);                      // widget_demo.c: left, right, R, G
+void widget_demo_question(Widget *widget, GuiRect place);   // widget_demo.c: what the audience is asked
+void widget_demo_keys(Widget *widget);                      // widget_demo.c: arrows, digits, R, A, Space
 
 // ---- a person's own functions: widget_mine.c; the first and the last do nothing without them ----
 
 void widget_mine_keys(Widget *widget);
-void widget_mine_draw(Widget *widget); // into picture and maps
+void widget_mine_draw(Widget *widget, View2d view); // into picture and maps
 void widget_mine_panel(Widget *widget);
 
 // ---- actions that buttons and keys share: widget_edit.c ----
@@ -123,6 +128,8 @@ void widget_add(Widget *widget); // where the mouse is, or in the middle
 void widget_duplicate(Widget *widget);
 void widget_remove(Widget *widget);
 void widget_reset(Widget *widget);
+void widget_fit(Widget *widget);         // all of the canvas is shown
+void widget_toggle_film(Widget *widget); // begins one, or ends it and writes it
 void widget_undo(Widget *widget);
 void widget_redo(Widget *widget);
 void widget_raise(Widget *widget, int steps); // towards the front by that many ranks; negative: to the back
@@ -132,7 +139,7 @@ void widget_select(Widget *widget, int index);
 
 void widget_show_step(Widget *widget, int step); // as the demo's file has it, whatever was changed by hand before
 void widget_show_page(Widget *widget, WidgetPage page);
-void widget_keep_frame(Widget *widget); // for the film, when there is one
+bool widget_demo_plays(Widget *widget); // the next step when it is time; is something moving by itself?
 
 // ---- files: widget_files.c ----
 

@@ -42,7 +42,7 @@ static void use_wheel(Widget *widget, const GuiMouse *mouse) {
     if (mouse->wheel == 0) return;
     if (gui_ctrl()) {
         canvas2d_zoom(&widget->canvas, mouse->x, mouse->y, pow(WHEEL_ZOOM, mouse->wheel));
-        widget->is_stale = true;
+        widget->is_moved = widget->is_stale = true;
     } else {
         widget_raise(widget, mouse->wheel > 0 ? 1 : -1);
     }
@@ -55,7 +55,7 @@ static void use_mouse(Widget *widget, GuiArea area) {
     if (area.hovered) use_wheel(widget, &mouse);
     if (area.held && (mouse.down[GUI_MIDDLE] || mouse.down[GUI_RIGHT]) && (mouse.moved_x != 0 || mouse.moved_y != 0)) {
         canvas2d_pan(&widget->canvas, mouse.moved_x, mouse.moved_y);
-        widget->is_stale = true;
+        widget->is_moved = widget->is_stale = true;
     }
     bool probes = area.hovered && !widget->probe_frozen && widget->drag.grip == GRIP_NONE;
     if (probes) {
@@ -150,6 +150,9 @@ static void draw_times(const Widget *widget, GuiRect place) {
     snprintf(text, sizeof text, "%d × %d px   raster %.1f ms   frame %.1f ms", widget->picture.width,
              widget->picture.height, widget->raster_ms, screen_work_ms(widget->screen));
     if (!screen_is_window(widget->screen)) return; // a time would make each headless picture another one
+    gui_draw_rect(
+        (GuiRect){place.x + 0.4 * em, place.y + 0.4 * em, gui_text_width(GUI_SMALL, text) + 0.8 * em, 1.3 * em},
+        0x0a0c1290, 0.3 * em);
     gui_draw_text(GUI_SMALL, place.x + 0.8 * em, place.y + 0.6 * em, 0xffffff90, "%s", text);
     const char *hint = "F1 help";
     gui_draw_text(GUI_SMALL, place.x + place.width - gui_text_width(GUI_SMALL, hint) - 0.8 * em, place.y + 0.6 * em,
@@ -176,17 +179,18 @@ static void draw_legend(const Widget *widget, GuiRect place) {
 
 void widget_canvas(Widget *widget, GuiRect place) {
     gui_panel_begin("canvas panel", place, PANEL_DEEP, 0);
-    if (!widget->is_placed) {
+    if (widget->is_moved) {
+        canvas2d_place(&widget->canvas, place.x, place.y, place.width, place.height);
+    } else {
         widget->canvas = (Canvas2d){.x = place.x, .y = place.y, .width = place.width, .height = place.height};
         canvas2d_fit(&widget->canvas, &widget->scene);
-        widget->is_placed = true;
     }
-    canvas2d_place(&widget->canvas, place.x, place.y, place.width, place.height);
     GuiArea area = gui_area("canvas", place.width, place.height);
     use_mouse(widget, area);
-    int width = (int)fmax(1, place.width), height = (int)fmax(1, place.height);
+    double density = gui_density();
+    int width = (int)fmax(1, place.width * density), height = (int)fmax(1, place.height * density);
     widget_picture(widget, width, height);
-    gui_draw_picture(0, (GuiRect){place.x, place.y, width, height});
+    gui_draw_picture(0, (GuiRect){place.x, place.y, width / density, height / density});
     draw_overlays(widget, area);
     draw_legend(widget, place);
     draw_times(widget, place);

@@ -1,21 +1,21 @@
-// widget_demo.c - a demo's steps in the widget: the strip above the picture, the keys of a lecturer, the film.
+// widget_demo.c - a demo's steps in the widget: the strip above the picture, the keys of a lecturer, the question.
 #include "lab/app/palette.h"
 #include "lab/app/widget.h"
+#include "lab/base/clock.h"
 #include "lab/base/fail.h"
-#include "lab/base/mem.h"
-#include "lab/io/image_io.h"
 #include "splat2d/loss.h"
 
 #include <GLFW/glfw3.h>
-#include <stdio.h>
+#include <math.h>
 #include <string.h>
 
-enum { FILM_DELAY_MS = 80, FILM_WIDTH_MAX = 800 };
-static const char FILM_PATH[] = "demo.gif";
+static const double PLAY_S = 6;                       // a step is shown while they follow by themselves
+static const double QUESTION_EMS = 34, ROW_EMS = 1.6; // of the card with the question, of a line on it
 
 void widget_show_step(Widget *widget, int step) {
     const DemoStep *s = &widget->demo->steps[step];
     widget->step = step;
+    widget->is_asking = false;
     scene2d_destroy(&widget->compared);
     widget_set_scene(widget, scene2d_copy(&s->scene));
     widget->active = s->active;
@@ -59,44 +59,67 @@ static bool compares(Widget *widget) {
     return true;
 }
 
-// ---- film ----
+// ---- keys ----
 
-static void end_film(Widget *widget) {
-    widget->is_filming = false;
-    if (widget->film_count == 0) return;
-    if (image_save_gif(FILM_PATH, widget->film, widget->film_count, FILM_DELAY_MS))
-        widget_say(widget, false, "%s: %d frames", FILM_PATH, widget->film_count);
+static void go_to(Widget *widget, int step) {
+    int last = widget->demo->count - 1;
+    widget_show_step(widget, step < 0 ? 0 : step > last ? last : step);
+}
+
+static void go_forward(Widget *widget) {
+    bool has_question = widget->demo->steps[widget->step].question != NULL;
+    if (widget->asks_audience && has_question && !widget->is_asking && widget->step < widget->demo->count - 1)
+        widget->is_asking = true;
     else
+        go_to(widget, widget->step + 1);
+}
+
+static void go_back(Widget *widget) {
+    if (widget->is_asking)
+        widget->is_asking = false;
+    else
+        go_to(widget, widget->step - 1);
+}
+
+bool widget_demo_plays(Widget *widget) {
+    if (!widget->is_playing || clock_seconds() - widget->stepped_s < PLAY_S) return widget->is_playing;
+    widget->stepped_s = clock_seconds();
+    go_forward(widget);
+    if (widget->step == widget->demo->count - 1) widget->is_playing = false;
+    return true;
+}
+
+static void choose_demo(Widget *widget, int i) {
+    Demo fresh;
+    if (!demo_load(DEMO_NAMES[i], &fresh)) {
         widget_say(widget, true, "%s", fail_text());
-    for (int i = 0; i < widget->film_count; i++) image8_destroy(&widget->film[i]);
-    widget->film_count = 0;
+        return;
+    }
+    demo_free(widget->demo);
+    *widget->demo = fresh;
+    widget_show_step(widget, 0);
 }
 
-void widget_keep_frame(Widget *widget) {
-    if (!widget->is_filming) return;
-    Image8 frame = {0};
-    if (!screen_read(widget->screen, &frame)) return;
-    if (!widget->film) widget->film = mem_alloc(FILM_FRAMES_MAX, sizeof *widget->film);
-    int k = (frame.width + FILM_WIDTH_MAX - 1) / FILM_WIDTH_MAX;
-    bool same = widget->film_count == 0 || widget->film[0].width == frame.width / k;
-    if (same) widget->film[widget->film_count++] = image8_downscale(&frame, k);
-    image8_destroy(&frame);
-    if (!same || widget->film_count == FILM_FRAMES_MAX) end_film(widget);
+static void play(Widget *widget) {
+    widget->is_playing = !widget->is_playing;
+    widget->stepped_s = clock_seconds();
+    widget_say(widget, false, widget->is_playing ? "Playing; Space freezes" : "Frozen; Space plays");
 }
-
-// ---- keys and strip ----
 
 void widget_demo_keys(Widget *widget) {
-    int forward = gui_key(GLFW_KEY_RIGHT, GUI_PLAIN) - gui_key(GLFW_KEY_LEFT, GUI_PLAIN);
-    int step = widget->step + forward, last = widget->demo->count - 1;
-    if (forward) widget_show_step(widget, step < 0 ? 0 : step > last ? last : step);
+    for (int i = gui_key(GLFW_KEY_RIGHT, GUI_PLAIN); i > 0; i--) go_forward(widget);
+    for (int i = gui_key(GLFW_KEY_LEFT, GUI_PLAIN); i > 0; i--) go_back(widget);
+    for (int i = 0; i < DEMO_COUNT; i++)
+        if (gui_key(GLFW_KEY_1 + i, GUI_PLAIN)) choose_demo(widget, i);
     if (gui_key(GLFW_KEY_R, GUI_PLAIN)) widget_show_step(widget, widget->step);
-    if (gui_key(GLFW_KEY_G, GUI_PLAIN) % 2 == 0) return;
-    if (widget->is_filming)
-        end_film(widget);
-    else
-        widget->is_filming = true;
+    if (widget->page != PAGE_TRAP && gui_key(GLFW_KEY_SPACE, GUI_PLAIN) % 2) play(widget);
+    if (gui_key(GLFW_KEY_A, GUI_PLAIN) % 2 == 0) return;
+    widget->asks_audience = !widget->asks_audience;
+    widget->is_asking = false;
+    widget_say(widget, false, widget->asks_audience ? "Audience: → asks, → again answers" : "Audience: off");
 }
+
+// ---- strip and question ----
 
 static void dots(const Widget *widget) {
     double em = gui_em();
@@ -119,11 +142,24 @@ void widget_demo_strip(Widget *widget, GuiRect place) {
         gui_text(GUI_BOLD, ACCENT, "%d Gaussian%s   PSNR %.1f dB", widget->scene.count,
                  widget->scene.count == 1 ? "" : "s", widget->psnr);
     }
-    if (widget->is_filming) {
-        gui_same_line(1);
-        gui_text(GUI_BOLD, BAD, "● %d", widget->film_count);
-    }
     gui_paragraph(GUI_BODY, INK, step->caption);
-    if (step->question) gui_paragraph(GUI_BOLD, ACCENT_WARM, step->question);
+    if (step->question && !widget->asks_audience) gui_paragraph(GUI_BOLD, ACCENT_WARM, step->question);
+    gui_panel_end();
+}
+
+void widget_demo_question(Widget *widget, GuiRect place) {
+    const char *question = widget->demo->steps[widget->step].question;
+    double em = gui_em(), width = fmin(QUESTION_EMS * em, place.width - 2 * em);
+    double lines = ceil(1.1 * gui_text_width(GUI_TITLE, question) / (width - 4 * em));
+    double height = (lines * ROW_EMS + 6) * em;
+    gui_overlay_begin("dim the picture", place, 0x0a0c12d0, 0, false);
+    gui_panel_end();
+    gui_overlay_begin(
+        "question",
+        (GuiRect){place.x + (place.width - width) / 2, place.y + (place.height - height) / 2, width, height}, CARD, 2,
+        false);
+    gui_paragraph(GUI_TITLE, ACCENT_WARM, question);
+    gui_gap(0.4);
+    gui_text(GUI_BODY, INK_QUIET, "What do you expect?   → shows it");
     gui_panel_end();
 }

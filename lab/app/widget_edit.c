@@ -57,8 +57,13 @@ void widget_remove(Widget *widget) {
 
 void widget_reset(Widget *widget) {
     widget_set_scene(widget, scene2d_copy(&widget->first));
-    canvas2d_fit(&widget->canvas, &widget->scene);
+    widget_fit(widget);
     widget_say(widget, false, "The scene is as it was at the start; Ctrl Z takes that back");
+}
+
+void widget_fit(Widget *widget) {
+    widget->is_moved = false; // the next frame does it
+    widget->is_stale = true;
 }
 
 static void travel(Widget *widget, bool found, const char *nothing) {

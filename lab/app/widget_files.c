@@ -1,13 +1,11 @@
 // widget_files.c - scenes and pictures on disk; what scripts read while the window is open.
+#include "lab/app/places.h"
 #include "lab/app/widget.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
-#include "lab/io/file.h"
 #include "lab/io/image_io.h"
 #include "splat2d/scene2d_json.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 void widget_save(Widget *widget) {
@@ -47,6 +45,19 @@ void widget_export(Widget *widget) {
     mem_free(path);
 }
 
+void widget_toggle_film(Widget *widget) {
+    const char *path = widget->demo ? "demo.gif" : "widget.gif";
+    if (!widget->film.is_on) {
+        widget_film_begin(&widget->film);
+        return;
+    }
+    int count = widget->film.count;
+    if (widget_film_save(&widget->film, path))
+        widget_say(widget, false, "%s: %d frames", path, count);
+    else
+        widget_say(widget, true, "%s", fail_text());
+}
+
 bool widget_write_state(Widget *widget) {
     if (!widget->state_path[0] || scene_equals(&widget->written, &widget->scene)) return true;
     if (!scene2d_save(widget->state_path, &widget->scene)) return false;
@@ -55,27 +66,14 @@ bool widget_write_state(Widget *widget) {
     return true;
 }
 
-// { "canvas": [x, y, width, height], ... } in points of the window, and how many of them a canvas px has.
 bool widget_write_places(Widget *widget) {
-    if (!widget->places_path[0]) return true;
-    char *text = NULL;
-    const char *label;
-    size_t size = 0;
-    GuiRect r;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return fail("cannot note where the controls are: out of memory");
-    fprintf(out, "{\n  \"zoom\": %.17g", widget->canvas.view.zoom);
-    for (int i = 0; gui_place(i, &label, &r); i++)
-        if (!strpbrk(label, "\"\\"))
-            fprintf(out, ",\n  \"%s\": [%.9g, %.9g, %.9g, %.9g]", label, r.x, r.y, r.width, r.height);
-    fprintf(out, "\n}\n");
-    fclose(out);
-    bool is_new = !widget->places || strcmp(text, widget->places) != 0;
-    bool good = !is_new || file_write(widget->places_path, text, size);
-    if (is_new) {
-        mem_free(widget->places);
-        widget->places = mem_text(text);
-    }
-    free(text);
-    return good;
+    const PlacesNumber numbers[] = {{"zoom", screen_unit(widget->screen) * widget->canvas.view.zoom},
+                                    {"probe x", widget->probe[0]},
+                                    {"probe y", widget->probe[1]},
+                                    {"active", widget->active},
+                                    {"step", widget->step},
+                                    {"playing", widget->is_playing},
+                                    {"asking", widget->is_asking}};
+    return places_write(widget->places_path, &widget->places, widget->screen, numbers,
+                        sizeof numbers / sizeof numbers[0]);
 }

@@ -1,48 +1,49 @@
-// widget_help.c - the overlay of F1: everything the mouse and the keyboard do, on one page.
-#include "lab/app/palette.h"
+// widget_help.c - what the mouse and the keyboard do in the widget and in a demo.
+#include "lab/app/help_page.h"
 #include "lab/app/widget.h"
+#include "lab/app/window_keys.h"
 
-#include <stddef.h>
+#include <string.h>
 
-static const struct {
-    const char *keys, *does;
-} LINES[] = {
+static const HelpLine WIDGET_LINES[] = {
+    {"click  Tab  1 … 9", "choose a blob"},
+    {"arrows", "move it by 1 px, with Shift by 10"},
+};
+static const HelpLine DEMO_LINES[] = {
+    {"→  ←", "the next step, the one before"},
+    {"1 … 6", "another demo: popping, anisotropy, psd, opacity …"},
+    {"R", "the step anew"},
+    {"A", "ask the audience: → first the question, then the answer"},
+    {"Space", "play the steps, and freeze"},
+    {"click  Tab", "choose a blob"},
+};
+static const HelpLine LINES[] = {
     {"drag a blob", "move it"},
     {"drag its squares", "stretch σx or σy"},
     {"drag its round handle", "turn θ; Shift snaps to 15°"},
-    {"click, Tab, 1 … 9", "choose a blob"},
-    {"wheel, [ ], PgUp PgDn", "one place to the front or to the back"},
-    {"Ctrl wheel, + −, 0", "zoom; all of the canvas"},
-    {"right or middle drag", "pan"},
-    {"arrows", "move by 1 px, with Shift by 10"},
-    {"X Y T O", "σx σy θ opacity up; with Shift down"},
+    {"wheel  [ ]  PgUp PgDn", "one place to the front or to the back"},
+    {"X  Y  T  O", "σx σy θ opacity up; with Shift down"},
     {"N  D  Delete", "new, duplicate, delete"},
-    {"Ctrl Z, Ctrl Y", "undo, redo; a whole drag is one step"},
-    {"Ctrl R", "reset the scene"},
-    {"B", "background as the lesson's script adds it, or right"},
-    {"G  H  L", "discs; outlines; colour, T or blobs read"},
+    {"Ctrl Z  Ctrl Y  Ctrl R", "undo, redo; the scene as it was at the start"},
     {"P", "hold the pixel that is explained"},
-    {"M", "the other page: the PSD trap (Space runs it)"},
+    {"U", "background as the lesson's script adds it, or right"},
+    {"H  E  L", "outlines; ellipses as discs; colour, T or blobs read"},
+    {"M", "the other page: the PSD trap; Space runs and freezes it"},
+    {"Ctrl wheel  Ctrl + −  0", "zoom; all of the canvas"},
+    {"right or middle drag", "pan"},
+    {"B", "no panel: the picture alone"},
+    {"V", "with --mine: your own functions, or the reference"},
+    {"G", "begin and end a film, an animated GIF"},
     {"Ctrl S  Ctrl O  Ctrl E", "save, load, export as PNG"},
-    {"Ctrl +  Ctrl −  Ctrl 0", "size of the text"},
-    {"F11, F1, Ctrl Q", "full screen, this page, quit"},
+    WINDOW_KEYS_HELP,
 };
-enum { LINE_COUNT = sizeof LINES / sizeof LINES[0] };
+#define COUNT(lines) (int)(sizeof(lines) / sizeof(lines)[0])
 
 void widget_help(Widget *widget) {
-    if (gui_mouse().pressed[GUI_LEFT]) widget->shows_help = false;
-    double em = gui_em(), width = 38 * em, height = (1.5 * LINE_COUNT + 5.5) * em;
-    GuiRect whole = gui_screen();
-    gui_overlay_begin("dim", whole, 0x000000b0, 0, true);
-    gui_panel_end();
-    GuiRect box = {(whole.width - width) / 2, (whole.height - height) / 2, width, height};
-    gui_overlay_begin("help", box, CARD, 1.6, true);
-    gui_text(GUI_TITLE, INK, "Mouse and keys");
-    gui_gap(0.2);
-    for (int i = 0; i < LINE_COUNT; i++) {
-        GuiRect row = gui_take(gui_width_left(), 1.1 * em);
-        gui_draw_text(GUI_BOLD, row.x, row.y, ACCENT, "%s", LINES[i].keys);
-        gui_draw_text(GUI_BODY, row.x + 13.5 * em, row.y, INK, "%s", LINES[i].does);
-    }
-    gui_panel_end();
+    HelpLine lines[COUNT(DEMO_LINES) + COUNT(LINES)];
+    const HelpLine *first = widget->demo ? DEMO_LINES : WIDGET_LINES;
+    int count = widget->demo ? COUNT(DEMO_LINES) : COUNT(WIDGET_LINES);
+    memcpy(lines, first, (size_t)count * sizeof *lines);
+    memcpy(lines + count, LINES, sizeof LINES);
+    help_page(&widget->shows_help, lines, count + COUNT(LINES));
 }

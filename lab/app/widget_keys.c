@@ -1,5 +1,6 @@
 // widget_keys.c - the keyboard: every slider and every button has a key, so that a lecturer can do without the mouse.
 #include "lab/app/widget.h"
+#include "lab/app/window_keys.h"
 
 #include <GLFW/glfw3.h>
 #include <math.h>
@@ -15,15 +16,6 @@ static int steps_of(int key) { return gui_key(key, GUI_PLAIN) - gui_key(key, GUI
 
 // Arrows: 1 px, with Shift 10.
 static double moved_by(int key) { return MOVE_PX * gui_key(key, GUI_PLAIN) + MOVE_FAR_PX * gui_key(key, GUI_SHIFT); }
-
-// + stands above = on some keyboards.
-static int pluses(int modifiers) {
-    return gui_key(GLFW_KEY_EQUAL, modifiers) + gui_key(GLFW_KEY_EQUAL, modifiers | GUI_SHIFT) +
-           gui_key(GLFW_KEY_KP_ADD, modifiers);
-}
-static int minuses(int modifiers) {
-    return gui_key(GLFW_KEY_MINUS, modifiers) + gui_key(GLFW_KEY_KP_SUBTRACT, modifiers);
-}
 
 static double scaled(double sigma, int steps) {
     return clamp(sigma * pow(SIGMA_FACTOR, steps), CANVAS_SIGMA_MIN, CANVAS_SIGMA_MAX);
@@ -52,22 +44,23 @@ static void blob_keys(Widget *widget) {
     if (gui_key(GLFW_KEY_DELETE, GUI_PLAIN) || gui_key(GLFW_KEY_BACKSPACE, GUI_PLAIN)) widget_remove(widget);
     int count = widget->scene.count, next = steps_of(GLFW_KEY_TAB);
     if (next && count > 0) widget->active = ((widget->active + next) % count + count) % count;
-    for (int i = 0; i < 9; i++)
+    for (int i = 0; i < 9 && !widget->demo; i++) // there they choose the demo
         if (gui_key(GLFW_KEY_1 + i, GUI_PLAIN)) widget_select(widget, i);
 }
 
 static void look_keys(Widget *widget) {
     const Canvas2d *c = &widget->canvas;
-    int unattenuated = gui_key(GLFW_KEY_B, GUI_PLAIN);
-    int discs = widget->demo ? 0 : gui_key(GLFW_KEY_G, GUI_PLAIN); // there it films
-    int layers = gui_key(GLFW_KEY_L, GUI_PLAIN), zooms = pluses(GUI_PLAIN) - minuses(GUI_PLAIN);
-    int fits = gui_key(GLFW_KEY_0, GUI_PLAIN) + gui_key(GLFW_KEY_HOME, GUI_PLAIN);
+    int unattenuated = gui_key(GLFW_KEY_U, GUI_PLAIN), discs = gui_key(GLFW_KEY_E, GUI_PLAIN);
+    int layers = gui_key(GLFW_KEY_L, GUI_PLAIN), zooms = window_keys_plus(GUI_CTRL) - window_keys_minus(GUI_CTRL);
     if (unattenuated % 2) widget->settings.background_unattenuated = !widget->settings.background_unattenuated;
     if (discs % 2) widget->settings.discs = !widget->settings.discs;
     widget->layer = (widget->layer + (unsigned)layers) % (LAYER_VISITS + 1);
-    if (zooms) canvas2d_zoom(&widget->canvas, c->x + c->width / 2, c->y + c->height / 2, pow(KEY_ZOOM, zooms));
-    if (fits) canvas2d_fit(&widget->canvas, &widget->scene);
-    if (unattenuated || discs || layers || zooms || fits) widget->is_stale = true;
+    if (zooms) {
+        canvas2d_zoom(&widget->canvas, c->x + c->width / 2, c->y + c->height / 2, pow(KEY_ZOOM, zooms));
+        widget->is_moved = true;
+    }
+    if (gui_key(GLFW_KEY_0, GUI_PLAIN) + gui_key(GLFW_KEY_HOME, GUI_PLAIN)) widget_fit(widget);
+    if (unattenuated || discs || layers || zooms) widget->is_stale = true;
     if (gui_key(GLFW_KEY_H, GUI_PLAIN) % 2) widget->shows_outlines = !widget->shows_outlines;
     if (gui_key(GLFW_KEY_P, GUI_PLAIN) % 2) widget->probe_frozen = !widget->probe_frozen;
 }
@@ -80,18 +73,14 @@ static void ctrl_keys(Widget *widget) {
     if (gui_key(GLFW_KEY_O, GUI_CTRL)) widget_load(widget);
     if (gui_key(GLFW_KEY_E, GUI_CTRL)) widget_export(widget);
     if (gui_key(GLFW_KEY_R, GUI_CTRL)) widget_reset(widget);
-    int zooms = pluses(GUI_CTRL) - minuses(GUI_CTRL);
-    if (zooms) screen_zoom(widget->screen, zooms);
-    if (gui_key(GLFW_KEY_0, GUI_CTRL)) screen_zoom(widget->screen, 0);
-    if (gui_key(GLFW_KEY_Q, GUI_CTRL)) screen_quit(widget->screen);
 }
 
 void widget_keys(Widget *widget) {
-    if (gui_key(GLFW_KEY_F1, GUI_PLAIN) % 2) widget->shows_help = !widget->shows_help;
-    if (gui_key(GLFW_KEY_F11, GUI_PLAIN) % 2) screen_toggle_full(widget->screen);
-    if (gui_key(GLFW_KEY_ESCAPE, GUI_PLAIN)) widget->shows_help = false;
+    window_keys(widget->screen);
     if (widget->drag.grip != GRIP_NONE) return; // the blob under the mouse must not change
     ctrl_keys(widget);
+    if (gui_key(GLFW_KEY_G, GUI_PLAIN) % 2) widget_toggle_film(widget);
+    if (gui_key(GLFW_KEY_B, GUI_PLAIN) % 2) widget->hides_panel = !widget->hides_panel;
     if (gui_key(GLFW_KEY_M, GUI_PLAIN) % 2)
         widget_show_page(widget, widget->page == PAGE_BLOBS ? PAGE_TRAP : PAGE_BLOBS);
     if (widget->page == PAGE_TRAP) {

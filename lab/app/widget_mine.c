@@ -34,11 +34,11 @@ static void say_what_broke(Widget *widget, const bool *before) {
     }
 }
 
-void widget_mine_draw(Widget *widget) {
+void widget_mine_draw(Widget *widget, View2d view) {
     bool before[MINE_PLANE_COUNT];
     for (MinePart i = 0; i < MINE_PLANE_COUNT; i++) before[i] = mine_is_used(widget->mine, i);
-    widget->mine_block = mine_picture2d(widget->mine, &widget->scene, widget->canvas.view, &widget->settings.rule,
-                                        &widget->picture, widget->maps.transmittance);
+    widget->mine_block = mine_picture2d(widget->mine, &widget->scene, view, &widget->settings.rule, &widget->picture,
+                                        widget->maps.transmittance);
     memset(widget->maps.visits, 0,
            (size_t)widget->picture.width * (size_t)widget->picture.height * sizeof *widget->maps.visits);
     say_what_broke(widget, before);

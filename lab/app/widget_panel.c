@@ -1,5 +1,6 @@
 // widget_panel.c - the column on the right: which blob, its sliders, what follows from them, and the scene's switches.
 #include "lab/app/palette.h"
+#include "lab/app/readout.h"
 #include "lab/app/widget.h"
 
 #include <math.h>
@@ -66,27 +67,14 @@ static void sliders(Widget *widget, Blob *blob) {
     blob->opacity = fmin(1, fmax(0, blob->opacity));
 }
 
-static void readout(const char *label, const char *value, GuiColour colour) {
-    gui_text(GUI_SMALL, INK_QUIET, "%s", label);
-    gui_same_line(0);
-    GuiRect place = gui_take(gui_width_left(), gui_text_height(GUI_SMALL));
-    double width = gui_text_width(GUI_MONO_SMALL, value);
-    gui_draw_text(GUI_MONO_SMALL, place.x + place.width - width, place.y, colour, "%s", value);
-}
-
 static void readouts(Widget *widget, const Blob *blob) {
-    char text[128];
-    snprintf(text, sizeof text, "%d", widget->scene.count);
-    readout("Gaussians", text, INK);
+    readout("Gaussians", INK, "%d", widget->scene.count);
     if (blob) {
-        snprintf(text, sizeof text, "%.1f × %.1f px", blob->sigma_x, blob->sigma_y);
-        readout("Active axis lengths (1σ)", text, INK);
-        snprintf(text, sizeof text, "%d of %d from the front", scene2d_rank(&widget->scene, widget->active) + 1,
-                 widget->scene.count);
-        readout("Active depth rank", text, INK);
+        readout("Active axis lengths (1σ)", INK, "%.1f × %.1f px", blob->sigma_x, blob->sigma_y);
+        readout("Active depth rank", INK, "%d of %d from the front", scene2d_rank(&widget->scene, widget->active) + 1,
+                widget->scene.count);
     }
-    snprintf(text, sizeof text, "%.4f", widget->mean_opacity);
-    readout("Mean accumulated opacity", text, INK);
+    readout("Mean accumulated opacity", INK, "%.4f", widget->mean_opacity);
 }
 
 static void list_buttons(Widget *widget) {
@@ -118,10 +106,10 @@ static void switches(Widget *widget) {
     gui_hint("H");
     gui_same_line(1);
     stale |= gui_switch("Discs", &widget->settings.discs);
-    gui_hint("G: each blob as its flat 1σ ellipse, so that one sees where they lie");
+    gui_hint("E: each blob as its flat 1σ ellipse, so that one sees where they lie");
     stale |= gui_switch("Background unattenuated", &widget->settings.background_unattenuated);
     gui_hint(
-        "B: as the lesson's own script does it. Its sum starts with the background and never multiplies it by what "
+        "U: as the lesson's own script does it. Its sum starts with the background and never multiplies it by what "
         "the blobs let through, so the weights add up to more than 1: opaque blobs become brighter by the "
         "background's colour. Correct is to add T · background at the end.");
     if (widget->settings.background_unattenuated)

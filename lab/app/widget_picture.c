@@ -65,9 +65,11 @@ void widget_picture(Widget *widget, int width, int height) {
     if (!widget->is_stale && widget->picture.width == width && widget->picture.height == height) return;
     fit_buffers(widget, width, height);
     double began_s = clock_seconds();
-    raster2d_load(&widget->raster, &widget->scene, widget->canvas.view);
+    View2d view = widget->canvas.view;
+    view.zoom *= gui_density(); // the picture is made for px
+    raster2d_load(&widget->raster, &widget->scene, view);
     if (widget->shows_mine)
-        widget_mine_draw(widget);
+        widget_mine_draw(widget, view);
     else
         raster2d_draw(&widget->raster, &widget->settings, &widget->picture, &widget->maps);
     widget->raster_ms = 1e3 * (clock_seconds() - began_s);

@@ -25,6 +25,13 @@ static bool is_shown(const Widget *widget, const WalkStep *step) {
     return widget->scene.count <= SHORT_LIST || step->kind == STEP_BLENDED;
 }
 
+// Large text in a small window leaves no room for the last column.
+static int column_count(double width) {
+    int count = COLUMN_COUNT;
+    while (count > 1 && COLUMN_ENDS[count - 1] * gui_em() > width) count--;
+    return count;
+}
+
 static void cell(GuiRect row, int column, GuiColour colour, const char *text) {
     double end = row.x + COLUMN_ENDS[column] * gui_em() - gui_text_width(GUI_MONO_SMALL, text);
     gui_draw_text(GUI_MONO_SMALL, end, row.y, colour, "%s", text);
@@ -36,13 +43,13 @@ static void swatch(double x, double y, const double rgb[3]) {
     gui_draw_frame((GuiRect){x, y, 1.6 * size, size}, 0xffffff40, 3, 1);
 }
 
-static void step_row(const Widget *widget, const WalkStep *step) {
+static void step_row(const Widget *widget, const WalkStep *step, int columns) {
     double em = gui_em();
     char text[32];
     const Blob *blob = &widget->scene.blobs[step->index];
     bool counts = step->kind == STEP_BLENDED;
     GuiColour ink = counts ? INK : INK_FAINT;
-    GuiRect row = gui_take(COLUMN_ENDS[COLUMN_COUNT - 1] * em, 1.08 * em);
+    GuiRect row = gui_take(COLUMN_ENDS[columns - 1] * em, 1.08 * em);
     if (step->index == widget->active)
         gui_draw_rect((GuiRect){row.x - 0.3 * em, row.y - 0.12 * em, row.width + 0.6 * em, 1.15 * em}, 0x7aa2f72c, 3);
     gui_draw_disc(row.x + 0.45 * em, row.y + 0.45 * em, 0.38 * em, colour_of(blob->rgb, counts ? 1 : 0.4));
@@ -56,11 +63,11 @@ static void step_row(const Widget *widget, const WalkStep *step) {
         return;
     }
     const double values[4] = {step->g, step->alpha, step->before, step->weight};
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4 && 2 + i < columns; i++) {
         snprintf(text, sizeof text, "%.4f", values[i]);
         cell(row, 2 + i, i == 3 && counts ? ACCENT_WARM : ink, text);
     }
-    if (counts) swatch(row.x + (COLUMN_ENDS[6] - 1.4) * em, row.y + 0.06 * em, step->rgb);
+    if (counts && columns == COLUMN_COUNT) swatch(row.x + (COLUMN_ENDS[6] - 1.4) * em, row.y + 0.06 * em, step->rgb);
 }
 
 static void table(const Widget *widget, GuiRect place) {
@@ -70,15 +77,16 @@ static void table(const Widget *widget, GuiRect place) {
     gui_same_line(0.6);
     gui_text(GUI_SMALL, widget->probe_frozen ? ACCENT_WARM : INK_QUIET,
              widget->probe_frozen ? "held; P lets it follow the mouse" : "under the mouse; P holds it");
-    GuiRect head = gui_take(COLUMN_ENDS[COLUMN_COUNT - 1] * em, 1.15 * em);
-    for (int i = 0; i < COLUMN_COUNT; i++) {
+    int columns = column_count(gui_width_left());
+    GuiRect head = gui_take(COLUMN_ENDS[columns - 1] * em, 1.15 * em);
+    for (int i = 0; i < columns; i++) {
         double end = head.x + COLUMN_ENDS[i] * em - gui_text_width(GUI_SMALL, COLUMNS[i]);
         gui_draw_text(GUI_SMALL, end, head.y, INK_QUIET, "%s", COLUMNS[i]);
     }
     int shown = 0;
     for (int i = 0; i < widget->scene.count; i++) {
         if (!is_shown(widget, &widget->walk[i])) continue;
-        step_row(widget, &widget->walk[i]);
+        step_row(widget, &widget->walk[i], columns);
         shown++;
     }
     if (shown < widget->scene.count)
@@ -127,25 +135,34 @@ static void plot_steps(const Widget *widget, GuiRect box) {
     gui_draw_line(x, y, box.x + box.width, y, INK, 1.5);
 }
 
+static const char *shorter(GuiStyle style, double width, const char *text, const char *narrow) {
+    return gui_text_width(style, text) > width ? narrow : text;
+}
+
 static void plot(const Widget *widget, GuiRect place) {
     double em = gui_em();
     gui_panel_begin("pixel plot", place, PANEL_DEEP, 0.6);
-    gui_text(GUI_BOLD, INK, "Transmittance T, front to back");
+    gui_text(GUI_BOLD, INK, "%s",
+             shorter(GUI_BOLD, gui_width_left(), "Transmittance T, front to back", "T, front to back"));
     GuiRect area = gui_take(gui_width_left(), place.height - 2.6 * em);
     GuiRect box = {area.x + 1.5 * em, area.y + 0.3 * em, area.width - 1.8 * em, area.height - 3.4 * em};
     plot_axes(box);
     plot_steps(widget, box);
     double y = box.y + box.height + 0.55 * em;
-    char text[96];
-    snprintf(text, sizeof text, "Σ T α′ %.4f  +  T %.4f  =  %.4f", widget->walked.weights, widget->walked.transmittance,
-             widget->walked.weights + widget->walked.transmittance);
-    gui_draw_text(GUI_MONO_SMALL, box.x, y, INK, "%s", text);
+    char text[96], narrow[96];
+    double weights = widget->walked.weights, left = widget->walked.transmittance;
+    snprintf(text, sizeof text, "Σ T α′ %.4f  +  T %.4f  =  %.4f", weights, left, weights + left);
+    snprintf(narrow, sizeof narrow, "Σ %.3f + T %.3f = %.3f", weights, left, weights + left);
+    gui_draw_text(GUI_MONO_SMALL, box.x, y, INK, "%s", shorter(GUI_MONO_SMALL, box.width, text, narrow));
     const double *rgb = widget->walked.rgb;
-    gui_draw_text(GUI_MONO_SMALL, box.x, y + 1.25 * em, INK_QUIET, "C = (%.3f, %.3f, %.3f)", rgb[0], rgb[1], rgb[2]);
-    double end = box.x + gui_text_width(GUI_MONO_SMALL, "C = (0.000, 0.000, 0.000)") + 0.8 * em;
-    swatch(end, y + 1.25 * em, rgb);
+    swatch(box.x, y + 1.25 * em, rgb);
+    snprintf(text, sizeof text, "C = (%.3f, %.3f, %.3f)", rgb[0], rgb[1], rgb[2]);
+    snprintf(narrow, sizeof narrow, "(%.2f, %.2f, %.2f)", rgb[0], rgb[1], rgb[2]);
+    const char *colour = shorter(GUI_MONO_SMALL, box.width - 1.8 * em, text, narrow);
+    gui_draw_text(GUI_MONO_SMALL, box.x + 1.8 * em, y + 1.25 * em, INK_QUIET, "%s", colour);
+    double end = box.x + 2.6 * em + gui_text_width(GUI_MONO_SMALL, colour);
     if (widget->settings.background_unattenuated)
-        gui_draw_text(GUI_SMALL, end + 2 * em, y + 1.25 * em, ACCENT_WARM, "+ whole background");
+        gui_draw_text(GUI_SMALL, end, y + 1.25 * em, ACCENT_WARM, "+ whole background");
     gui_panel_end();
 }
 

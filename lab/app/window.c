@@ -6,10 +6,11 @@
 #include "lab/base/mem.h"
 
 #include <GLFW/glfw3.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_EVENTS_MAX = 64, MODIFIERS = GLFW_MOD_SHIFT | GLFW_MOD_CONTROL };
+enum { KEY_EVENTS_MAX = 1024, MODIFIERS = GLFW_MOD_SHIFT | GLFW_MOD_CONTROL };
 
 struct Window {
     GLFWwindow *handle;
@@ -17,6 +18,7 @@ struct Window {
         int key, modifiers;
     } keys[KEY_EVENTS_MAX]; // went down in the last poll
     int key_count;
+    double density;  // that was asked for; 0: the display's
     int windowed[4]; // x, y, width, height to return to from full screen
 };
 
@@ -56,7 +58,24 @@ static void fit_screen(int *width, int *height) {
     if (most_height > 0 && *height > most_height) *height = most_height;
 }
 
-Window *window_create(const char *title, int width, int height, bool enlarge) {
+// What the display says, in quarters: 100 dots per inch are no reason to blur a line.
+static double quarters(float scale) { return fmax(1, round(4 * (double)scale) / 4); }
+
+// How many of the window system's units a point will have, before there is a window. X11 and Windows count px; others count
+// points of their own, of which each is as many px as the display says.
+static double unit_of_system(double density) {
+    float x = 1, y = 1;
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    if (monitor) glfwGetMonitorContentScale(monitor, &x, &y);
+    if (!(density > 0)) density = quarters(x);
+#if defined(__APPLE__)
+    return density / quarters(x);
+#else
+    return getenv("WAYLAND_DISPLAY") && !getenv("DISPLAY") ? density / quarters(x) : density;
+#endif
+}
+
+Window *window_create(const char *title, int width, int height, double density) {
     glfwSetErrorCallback(note_error);
     if (!glfwInit()) {
         fail_no_display();
@@ -67,7 +86,8 @@ Window *window_create(const char *title, int width, int height, bool enlarge) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_ALPHA_BITS, 0);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, enlarge ? GLFW_TRUE : GLFW_FALSE);
+    double unit = unit_of_system(density);
+    width = (int)(width * unit), height = (int)(height * unit);
     fit_screen(&width, &height);
     GLFWwindow *handle = glfwCreateWindow(width, height, title, NULL, NULL);
     if (!handle) {
@@ -79,6 +99,7 @@ Window *window_create(const char *title, int width, int height, bool enlarge) {
     glfwSwapInterval(1);
     Window *window = mem_alloc(1, sizeof *window);
     window->handle = handle;
+    window->density = density;
     glfwSetWindowUserPointer(handle, window);
     glfwSetKeyCallback(handle, note_key);
     return window;
@@ -95,7 +116,26 @@ GLFWwindow *window_handle(const Window *window) { return window->handle; }
 
 bool window_is_closing(const Window *window) { return glfwWindowShouldClose(window->handle); }
 
-void window_size(const Window *window, int *width, int *height) { glfwGetWindowSize(window->handle, width, height); }
+double window_density(const Window *window) {
+    float x, y;
+    if (window->density > 0) return window->density;
+    glfwGetWindowContentScale(window->handle, &x, &y);
+    return quarters(x);
+}
+
+double window_unit(const Window *window) {
+    int width, height, width_px, height_px;
+    glfwGetWindowSize(window->handle, &width, &height);
+    glfwGetFramebufferSize(window->handle, &width_px, &height_px);
+    return width_px > 0 ? window_density(window) * width / width_px : 1;
+}
+
+void window_size(const Window *window, int *width, int *height) {
+    int width_px, height_px;
+    glfwGetFramebufferSize(window->handle, &width_px, &height_px);
+    *width = (int)(width_px / window_density(window));
+    *height = (int)(height_px / window_density(window));
+}
 
 void window_poll(Window *window, double wait_s) {
     window->key_count = 0;

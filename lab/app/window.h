@@ -1,6 +1,7 @@
 // window.h - a window with an OpenGL 3.3 core context, by GLFW; window.c is the only file that calls OpenGL itself.
 //
-// Lengths are in window points, except where px is said: on a HiDPI screen a point is more than one px.
+// Lengths are in points, except where px is said: on a screen of high resolution a point is more than one px. Some window
+// systems count the window and the mouse in points, some in px.
 #ifndef SPLATLAB_LAB_APP_WINDOW_H
 #define SPLATLAB_LAB_APP_WINDOW_H
 
@@ -11,13 +12,15 @@
 typedef struct Window Window;
 struct GLFWwindow;
 
-// NULL with a message where there is no display or no OpenGL 3.3. One window at a time. enlarge: multiplies the size by
-// what the screen's resolution asks for, where the window system counts in px.
-Window *window_create(const char *title, int width, int height, bool enlarge);
+// NULL with a message where there is no display or no OpenGL 3.3. One window at a time. density: px per point; 0: what the
+// display says.
+Window *window_create(const char *title, int width, int height, double density);
 void window_destroy(Window *window); // accepts NULL
 
 struct GLFWwindow *window_handle(const Window *window); // for the layer that draws controls
 void window_size(const Window *window, int *width, int *height);
+double window_density(const Window *window); // px per point
+double window_unit(const Window *window);    // what the window system counts, per point
 bool window_is_closing(const Window *window);
 void window_poll(Window *window, double wait_s); // takes events; waits that long for one if there is none
 

@@ -12,8 +12,15 @@ static const OptionField FIELDS[WINDOW_OPTION_COUNT] = {
      .offset = offsetof(WindowOptions, size),
      .low = 320,
      .high = 16384,
-     .unit = "px",
+     .unit = "points",
      .help = "of the window; 0x0: chosen for the display"},
+    {.name = "ui-scale",
+     .type = OPTION_DOUBLE,
+     .offset = offsetof(WindowOptions, ui_scale),
+     .low = 0,
+     .high = 4,
+     .unit = "px a point",
+     .help = "sharpness of a screen of high resolution, 2 as a rule; 0: what the display says"},
     {.name = "frames",
      .type = OPTION_INT,
      .offset = offsetof(WindowOptions, frames),
@@ -33,7 +40,7 @@ static const OptionField FIELDS[WINDOW_OPTION_COUNT] = {
     {.name = "places-file",
      .type = OPTION_TEXT,
      .offset = offsetof(WindowOptions, places_file),
-     .help = "a .json file: where each control is in the window, for scripts that click"},
+     .help = "a .json file: where each control is in the window, for scripts that click; F12 adds 1 to its \"marks\""},
 };
 
 void window_options_fields(size_t offset, OptionField fields[WINDOW_OPTION_COUNT]) {
@@ -43,6 +50,8 @@ void window_options_fields(size_t offset, OptionField fields[WINDOW_OPTION_COUNT
 
 bool window_options_check(const WindowOptions *o, const char *command) {
     static const char *const pictures[] = {".png", ".jpg", NULL}, *const documents[] = {".json", NULL};
+    if (o->ui_scale > 0 && o->ui_scale < 0.5)
+        return fail_usage("%s: --ui-scale %g: want 0, or 0.5 to 4", command, o->ui_scale);
     if (o->screenshot[0] && o->frames == 0)
         return fail_usage("%s: --screenshot is taken of the last frame; say which with --frames N", command);
     return (!o->screenshot[0] || output_path_check("screenshot", o->screenshot, pictures)) &&
@@ -51,6 +60,9 @@ bool window_options_check(const WindowOptions *o, const char *command) {
 }
 
 ScreenOptions window_options_screen(const WindowOptions *o, const char *title) {
-    return (ScreenOptions){
-        .title = title, .size = {o->size[0], o->size[1]}, .frames = o->frames, .screenshot = o->screenshot};
+    return (ScreenOptions){.title = title,
+                           .size = {o->size[0], o->size[1]},
+                           .density = o->ui_scale,
+                           .frames = o->frames,
+                           .screenshot = o->screenshot};
 }

@@ -8,14 +8,15 @@
 #include <stdbool.h>
 
 typedef struct {
-    int size[2]; // 0 0: chosen for the display
-    int frames;  // 0: until the window is closed
+    int size[2];     // 0 0: chosen for the display
+    double ui_scale; // px per point; 0: what the display says
+    int frames;      // 0: until the window is closed
     char screenshot[OPTION_TEXT_BYTES];
     char state_file[OPTION_TEXT_BYTES];
     char places_file[OPTION_TEXT_BYTES];
 } WindowOptions;
 
-enum { WINDOW_OPTION_COUNT = 5 };
+enum { WINDOW_OPTION_COUNT = 6 };
 
 // Their part of a command's table; offset: of the WindowOptions within the command's own struct.
 void window_options_fields(size_t offset, OptionField fields[WINDOW_OPTION_COUNT]);

@@ -4,6 +4,7 @@
 #include "lab/io/image_io.h"
 #include "lab/io/json_io.h"
 #include "tests/support/command.h"
+#include "tests/support/golden.h"
 #include "tests/support/session.h"
 #include "tests/support/support.h"
 
@@ -45,8 +46,9 @@ static double walk_number(json_t *steps, int step, const char *walk, const char 
     return json_number_value(json_object_get(json_object_get(json_array_get(steps, (size_t)step), walk), key));
 }
 
-static void every_demo_writes_a_picture_a_step(void **state) {
+static void every_step_of_every_demo_looks_as_it_did(void **state) {
     (void)state;
+    int others = 0;
     for (int i = 0; i < NAME_COUNT; i++) {
         Demo demo;
         const char *folder;
@@ -54,19 +56,14 @@ static void every_demo_writes_a_picture_a_step(void **state) {
         json_t *steps = steps_of(NAMES[i], &folder);
         assert_int_equal(json_array_size(steps), demo.count);
         for (int step = 0; step < demo.count; step++) {
-            char path[4300];
-            Image8 image = {0};
+            char path[4300], name[64];
             snprintf(path, sizeof path, "%s/step_%02d.png", folder, step + 1);
-            assert_true(image_load8(path, &image));
-            assert_int_equal(image.width, 960);
-            assert_int_equal(image.height, 600);
-            double sum = 0, squares = 0, count = 960 * 600 * 3;
-            for (int k = 0; k < 960 * 600 * 3; k++) sum += image.bytes[k], squares += image.bytes[k] * image.bytes[k];
-            assert_true(sqrt(squares / count - sum / count * sum / count) > 10); // not empty
-            image8_destroy(&image);
+            snprintf(name, sizeof name, "demo_%s_%d", NAMES[i], step + 1);
+            others += !golden_matches(path, name);
         }
         demo_free(&demo);
     }
+    if (others) fail_msg("%d pictures differ; if they are better than before: make golden", others);
 }
 
 static void the_same_demo_gives_the_same_bytes(void **state) {
@@ -179,25 +176,110 @@ static void a_step_looks_the_same_from_both_sides(void **state) {
     demo_free(&demo);
 }
 
+// ---- as a lecturer uses it; all tests share one window ----
+
+static void start_lecture(void) {
+    session_need_screen();
+    if (!session_is_alive()) {
+        char *demos = realpath("lab/app/demos", NULL); // the session runs elsewhere
+        setenv("SPLATLAB_DEMOS", demos, 1);
+        free(demos);
+        session_start("demo", "popping", NULL);
+    }
+    session_do("key 1"); // popping, from its first step
+}
+
+static int end_lecture(void **state) {
+    (void)state;
+    session_end();
+    return 0;
+}
+
 static void the_arrows_step_and_g_films(void **state) {
     (void)state;
-    session_need_screen();
-    char *demos = realpath("lab/app/demos", NULL); // the session runs elsewhere
-    setenv("SPLATLAB_DEMOS", demos, 1);
-    free(demos);
-    session_start("demo", "popping");
-    session_do("key Right sleep 0.3");
+    start_lecture();
+    session_do("key Right");
     assert_true(session_scene()->blobs[1].depth == 0.9);
-    session_do("key x sleep 0.2 key g sleep 0.2 key Right sleep 0.3 key g sleep 0.5");
+    session_do("key x; key g; key Right; key g");
     assert_true(session_scene()->blobs[0].opacity == 0.25);
     assert_true(session_scene()->blobs[1].sigma_x == 130); // what was done by hand before is gone
-    const char *film = support_path(support_scratch(), "demo.gif");
-    for (int tries = 0; tries < 100 && !file_exists(film); tries++)
-        session_do("sleep 0.1"); // it takes a while to write
-    assert_true(file_exists(film));
-    session_do("key Left key Left key Left sleep 0.3");
+    assert_true(file_exists(support_path(support_scratch(), "demo.gif")));
+    session_do("key x; key r");
+    assert_true(session_scene()->blobs[1].sigma_x == 130); // anew
+    session_do("key Left key Left key Left");
     assert_true(session_scene()->blobs[1].depth == 1.1);
-    assert_int_equal(session_end(), 0);
+}
+
+static void digits_choose_the_demo(void **state) {
+    (void)state;
+    start_lecture();
+    for (int i = 0; i < NAME_COUNT; i++) {
+        Demo demo;
+        assert_true(demo_load(NAMES[i], &demo));
+        session_do("key Right; key %d", i + 1);
+        assert_true(session_number("step") == 0);
+        assert_int_equal(session_scene()->count, demo.steps[0].scene.count);
+        demo_free(&demo);
+    }
+}
+
+static void the_audience_is_asked_before_it_is_answered(void **state) {
+    (void)state;
+    start_lecture();
+    session_do("key a; key Right");
+    assert_true(session_number("step") == 0 && session_number("asking") == 1);
+    assert_true(session_scene()->blobs[1].depth == 1.1); // nothing is given away
+    session_do("key Left");
+    assert_true(session_number("step") == 0 && session_number("asking") == 0);
+    session_do("key Right; key Right");
+    assert_true(session_number("step") == 1 && session_number("asking") == 0);
+    assert_true(session_scene()->blobs[1].depth == 0.9);
+    session_do("key a; key Left; key Right");
+    assert_true(session_number("step") == 1); // at once
+}
+
+static void space_plays_and_freezes(void **state) {
+    (void)state;
+    start_lecture();
+    session_do("key space");
+    assert_true(session_number("playing") == 1);
+    session_do("key space");
+    assert_true(session_number("playing") == 0 && session_number("step") == 0);
+}
+
+static void b_hides_the_panel_and_plus_enlarges_the_text(void **state) {
+    (void)state;
+    start_lecture();
+    double middle[2], small[2], large[2];
+    session_place("canvas", middle, small);
+    assert_true(session_has_place("Add"));
+    session_do("key b; mousemove 3 3"); // places are those of the frame before
+    assert_false(session_has_place("Add"));
+    session_place("canvas", middle, large);
+    assert_true(large[0] == SESSION_WIDTH && small[0] < large[0]);
+    session_do("key b; mousemove 4 4");
+    session_place("Add", middle, small);
+    session_do("key plus key plus; mousemove 3 3");
+    session_place("Add", middle, large);
+    assert_true(large[1] > 1.1 * small[1]);
+    session_do("key minus key minus; mousemove 4 4");
+    session_place("Add", middle, large);
+    assert_true(large[1] == small[1]);
+}
+
+static void p_pins_the_pixel(void **state) {
+    (void)state;
+    start_lecture();
+    double middle[2], size[2];
+    session_place("canvas", middle, size);
+    assert_true(session_number("probe x") == 480.5); // the step pins it
+    session_do("mousemove %.0f %.0f; mousemove %.0f %.0f", middle[0] - 50, middle[1], middle[0] - 60, middle[1]);
+    assert_true(session_number("probe x") == 480.5);
+    session_do("key p; mousemove %.0f %.0f", middle[0] - 50, middle[1]);
+    assert_true(session_number("probe x") < 450);
+    double pinned = session_number("probe x");
+    session_do("key p; mousemove %.0f %.0f", middle[0] + 50, middle[1]);
+    assert_true(session_number("probe x") == pinned);
 }
 
 // Its lines need more vertices than sixteen bits count.
@@ -248,7 +330,7 @@ static void wrong_usage_ends_with_exit_code_2(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_demo_writes_a_picture_a_step),
+        cmocka_unit_test(every_step_of_every_demo_looks_as_it_did),
         cmocka_unit_test(the_same_demo_gives_the_same_bytes),
         cmocka_unit_test(popping_jumps_by_the_product_of_the_alphas),
         cmocka_unit_test(more_round_blobs_come_nearer_to_the_stretched_one),
@@ -259,9 +341,14 @@ int main(void) {
         cmocka_unit_test(what_is_seen_through_follows_the_opacity),
         cmocka_unit_test(a_step_looks_the_same_from_both_sides),
         cmocka_unit_test(the_arrows_step_and_g_films),
+        cmocka_unit_test(digits_choose_the_demo),
+        cmocka_unit_test(the_audience_is_asked_before_it_is_answered),
+        cmocka_unit_test(space_plays_and_freezes),
+        cmocka_unit_test(b_hides_the_panel_and_plus_enlarges_the_text),
+        cmocka_unit_test(p_pins_the_pixel),
         cmocka_unit_test(a_walk_of_two_thousand_steps_is_drawn),
         cmocka_unit_test(broken_files_are_named),
         cmocka_unit_test(wrong_usage_ends_with_exit_code_2),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, end_lecture);
 }

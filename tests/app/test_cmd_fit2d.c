@@ -7,6 +7,7 @@
 #include "splat2d/raster2d.h"
 #include "splat2d/scene2d_json.h"
 #include "tests/support/command.h"
+#include "tests/support/session.h"
 #include "tests/support/support.h"
 
 #include <jansson.h>
@@ -171,6 +172,94 @@ static void ctrl_c_saves_and_ends_well(void **state) {
     scene2d_destroy(&scene);
 }
 
+// ---- in a window ----
+
+static void same_files(const char *a, const char *b) {
+    static const char *const files[] = {"fit.json", "fit.png", "comparison.png", "fit.gif"};
+    for (int f = 0; f < 4; f++) {
+        char sums[2][65];
+        assert_true(file_sha256(support_path(a, files[f]), sums[0]) && file_sha256(support_path(b, files[f]), sums[1]));
+        assert_string_equal(sums[0], sums[1]);
+    }
+}
+
+static void a_window_gives_the_same_bytes(void **state) {
+    (void)state;
+    session_need_screen();
+    const char *photo = photo_path();
+    char outs[2][4096], shot[4096], report[4096]; // support_path() has few buffers
+    for (int k = 0; k < 2; k++) snprintf(outs[k], sizeof outs[k], "%s/live_%d", support_scratch(), k);
+    snprintf(shot, sizeof shot, "%s/live.png", support_scratch());
+    snprintf(report, sizeof report, "%s/live.json", support_scratch());
+    CommandResult r = command_run("fit2d", photo, "-n", "20", "--iterations", "40", "--seed", "3", "--grow", "--gif",
+                                  "-q", "-o", outs[0], NULL);
+    command_expect(&r, 0);
+    r = command_run("fit2d", photo, "-n", "20", "--iterations", "40", "--seed", "3", "--grow", "--gif", "-q", "-o",
+                    outs[1], "--live", "--frames", "50", "--window-size", "900x600", "--screenshot", shot,
+                    "--state-file", report, "--json", NULL);
+    command_expect(&r, 0);
+    json_t *root = json_loads(r.out, 0, NULL);
+    assert_true(json_is_false(json_object_get(root, "interrupted")));
+    assert_int_equal(number(root, "iterations"), 40);
+    json_decref(root);
+    same_files(outs[0], outs[1]);
+    Image8 image;
+    assert_true(image_load8(shot, &image));
+    assert_int_equal(image.width, 900);
+    image8_destroy(&image);
+    root = json_load_file(report, 0, NULL);
+    assert_int_equal(number(root, "step"), 40);
+    assert_true(json_is_true(json_object_get(root, "saved")) && number(root, "psnr") > 20);
+    json_decref(root);
+}
+
+static void space_pauses_s_steps_and_closing_saves(void **state) {
+    (void)state;
+    session_need_screen();
+    double middle[2], size[2];
+    session_start("fit2d", photo_path(), "-n", "20", "--iterations", "9999999", "-o", scratch("closed"), "--live",
+                  NULL);
+    session_do("key space");
+    double step = session_state("step");
+    session_do("mousemove 5 5");
+    assert_true(session_state("step") == step); // it stands
+    session_do("key s; key s");
+    assert_true(session_state("step") == step + 2);
+    session_place("Step", middle, size);
+    session_do("mousemove %.0f %.0f; click 1", middle[0], middle[1]);
+    assert_true(session_state("step") == step + 3);
+    session_do("key r");
+    assert_true(session_state("step") == 0);
+    session_do("key s");
+    assert_true(session_state("step") == 1);
+    session_do("key 2; key space; mousemove 9 9; key space");
+    step = session_state("step");
+    assert_true(step > 1);
+    session_do("key ctrl+q");
+    assert_int_equal(session_wait(), 0);
+    Scene2d scene;
+    if (!scene2d_load(support_path(scratch("closed"), "fit.json"), &scene)) fail_msg("%s", fail_text());
+    assert_int_equal(scene.count, 20);
+    scene2d_destroy(&scene);
+}
+
+static void ctrl_c_in_a_window_saves(void **state) {
+    (void)state;
+    session_need_screen();
+    const char *out = scratch("signalled");
+    session_start("fit2d", photo_path(), "-n", "20", "--iterations", "9999999", "-o", out, "--live", NULL);
+    assert_int_equal(session_end(), 0);
+    assert_true(file_exists(support_path(out, "fit.png")) && file_exists(support_path(out, "fit.json")));
+}
+
+static void options_of_a_window_need_one(void **state) {
+    (void)state;
+    CommandResult r = command_run("fit2d", photo_path(), "-o", scratch("y"), "--frames", "3", NULL);
+    command_expect_error(&r, 2, "--live", NULL);
+    r = command_run("fit2d", photo_path(), "-o", scratch("y"), "--live", "--screenshot", "a.png", NULL);
+    command_expect_error(&r, 2, "--frames", NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fit_leaves_picture_scene_comparison_and_film),
@@ -178,6 +267,10 @@ int main(void) {
         cmocka_unit_test(the_photograph_is_made_smaller),
         cmocka_unit_test(wrong_usage_is_told),
         cmocka_unit_test(ctrl_c_saves_and_ends_well),
+        cmocka_unit_test(a_window_gives_the_same_bytes),
+        cmocka_unit_test(space_pauses_s_steps_and_closing_saves),
+        cmocka_unit_test(ctrl_c_in_a_window_saves),
+        cmocka_unit_test(options_of_a_window_need_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@ enum { EVENTS = 1000 };
 static void start_widget(void) {
     session_need_screen();
     if (session_is_alive())
-        session_do("key Escape key ctrl+r key 1 sleep 0.2");
+        session_do("key Escape key ctrl+r key 1");
     else
         session_start("widget", NULL);
 }
@@ -95,7 +95,7 @@ static void another_depth_order_changes_the_pixel(void **state) {
     RasterSettings settings = raster_settings_default();
     raster2d_load(&raster, session_scene(), view2d_whole());
     WalkResult before = pixel_walk(&raster, &settings, 660.5, 330.5, steps);
-    session_do("key 4 sleep 0.2 key bracketright sleep 0.2");
+    session_do("key 4; key bracketright");
     const Scene2d *scene = session_scene();
     assert_int_equal(scene2d_rank(scene, 3), 2);
     assert_int_equal(scene2d_rank(scene, 4), 1);
@@ -112,9 +112,9 @@ static void the_wheel_changes_the_depth_rank(void **state) {
     double at[2];
     session_point((double[2]){480, 100}, at);
     int before = scene2d_rank(session_scene(), 0);
-    session_do("mousemove %.0f %.0f sleep 0.2 click 4 sleep 0.3", at[0], at[1]);
+    session_do("mousemove %.0f %.0f; click 4", at[0], at[1]);
     assert_int_equal(scene2d_rank(session_scene(), 0), before - 1);
-    session_do("click 5 sleep 0.3 click 5 sleep 0.3");
+    session_do("click 5; click 5");
     assert_int_equal(scene2d_rank(session_scene(), 0), before + 1);
 }
 
@@ -131,11 +131,11 @@ static void a_whole_drag_is_one_step(void **state) {
     char *faint = strdup(session_bytes());
     assert_string_not_equal(first, dragged);
     assert_string_not_equal(dragged, faint);
-    session_do("key ctrl+z sleep 0.3");
+    session_do("key ctrl+z");
     assert_string_equal(session_bytes(), dragged);
-    session_do("key ctrl+z sleep 0.3");
+    session_do("key ctrl+z");
     assert_string_equal(session_bytes(), first);
-    session_do("key ctrl+y sleep 0.3 key ctrl+shift+z sleep 0.3");
+    session_do("key ctrl+y; key ctrl+shift+z");
     assert_string_equal(session_bytes(), faint);
     free(first);
     free(dragged);
@@ -147,13 +147,13 @@ static void undo_restores_the_bytes(void **state) {
     (void)state;
     start_widget();
     char *first = strdup(session_bytes());
-    session_do("key x sleep 0.3 key d sleep 0.3 key Delete sleep 0.3 key Delete sleep 0.3");
+    session_do("key x; key d; key Delete; key Delete");
     assert_int_equal(session_scene()->count, 5);
     char *last = strdup(session_bytes());
     int steps = 0;
-    for (; steps < 4 && strcmp(session_bytes(), first) != 0; steps++) session_do("key ctrl+z sleep 0.2");
+    for (; steps < 4 && strcmp(session_bytes(), first) != 0; steps++) session_do("key ctrl+z");
     assert_string_equal(session_bytes(), first);
-    for (; steps > 0; steps--) session_do("key ctrl+y sleep 0.2");
+    for (; steps > 0; steps--) session_do("key ctrl+y");
     assert_string_equal(session_bytes(), last);
     free(first);
     free(last);
@@ -163,13 +163,13 @@ static void a_saved_scene_is_loaded_again(void **state) {
     (void)state;
     start_widget();
     double middle[2], size[2];
-    session_do("key n sleep 0.2 key ctrl+s sleep 0.3");
+    session_do("key n; key ctrl+s");
     char *saved = strdup(session_bytes());
     assert_true(file_exists(support_path(support_scratch(), "scene.json")));
     session_place("Delete", middle, size);
-    session_do("mousemove %.0f %.0f sleep 0.2 click 1 sleep 0.3", middle[0], middle[1]);
+    session_do("mousemove %.0f %.0f; click 1", middle[0], middle[1]);
     assert_int_equal(session_scene()->count, 6);
-    session_do("key ctrl+o sleep 0.3 key ctrl+e sleep 0.5");
+    session_do("key ctrl+o; key ctrl+e");
     assert_string_equal(session_bytes(), saved);
     Image8 picture = {0};
     assert_true(image_load8(support_path(support_scratch(), "scene.png"), &picture));
@@ -178,13 +178,92 @@ static void a_saved_scene_is_loaded_again(void **state) {
     free(saved);
 }
 
+static void zoom_and_pan_move_the_view_and_nothing_else(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2], fitted = session_number("zoom");
+    char *first = strdup(session_bytes());
+    session_place("canvas", middle, size);
+    session_do("mousemove %.0f %.0f; keydown ctrl click 4; keyup ctrl", middle[0], middle[1]);
+    support_near(session_number("zoom"), 1.15 * fitted, 1e-9, "a notch of the wheel");
+    session_do("key ctrl+plus");
+    support_near(session_number("zoom"), 1.15 * 1.25 * fitted, 1e-9, "a press of the key");
+    // What is dragged 70 px to the right is found there.
+    double before = session_number("probe x"), zoom = session_number("zoom");
+    session_do("mousedown 3; mousemove %.0f %.0f; mouseup 3; mousemove %.0f %.0f", middle[0] + 70, middle[1],
+               middle[0] + 1, middle[1]);
+    support_near(session_number("probe x"), before + (1 - 70) / zoom, 1.01, "the pixel under the mouse");
+    session_do("key 0; mousemove 2 2");
+    support_near(session_number("zoom"), fitted, 1e-9, "all of the canvas");
+    assert_string_equal(session_bytes(), first);
+    free(first);
+}
+
+static void hiding_the_panel_and_full_screen_come_back(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2], fitted = session_number("zoom");
+    session_do("key b; mousemove 2 2");
+    session_place("canvas", middle, size);
+    support_near(size[0], SESSION_WIDTH, 1e-9, "as wide as the window");
+    session_do("key b; mousemove 3 3");
+    support_near(session_number("zoom"), fitted, 1e-9, "as it was");
+    session_do("key F11; mousemove 2 2; key F11; mousemove 3 3");
+    support_near(session_number("zoom"), fitted, 1e-9, "as it was");
+}
+
+static void a_colour_is_dragged_and_undone(void **state) {
+    (void)state;
+    start_widget();
+    double middle[2], size[2];
+    double before = session_scene()->blobs[0].rgb[0];
+    session_place("colour", middle, size);
+    session_drag(middle[0] - size[0] / 2 + 40, middle[1], middle[0] - size[0] / 2 - 60, middle[1]); // red's field
+    double after = session_scene()->blobs[0].rgb[0];
+    assert_true(after < before);
+    session_do("key ctrl+z");
+    assert_true(session_scene()->blobs[0].rgb[0] == before);
+}
+
+// X Y T O and the brackets: every slider has its key.
+static void every_slider_has_a_key(void **state) {
+    (void)state;
+    start_widget();
+    Blob before = session_scene()->blobs[0];
+    int rank = scene2d_rank(session_scene(), 0);
+    session_do("key x; key y; key t; key shift+o; key bracketleft");
+    Blob after = session_scene()->blobs[0];
+    support_near(after.sigma_x, 1.05 * before.sigma_x, 1e-9, "X");
+    support_near(after.sigma_y, 1.05 * before.sigma_y, 1e-9, "Y");
+    support_near(after.theta_rad, before.theta_rad + M_PI / 36, 1e-9, "T");
+    support_near(after.opacity, before.opacity - 0.05, 1e-9, "Shift O");
+    assert_int_equal(scene2d_rank(session_scene(), 0), rank - 1);
+    session_do("key shift+x; key shift+y; key shift+t; key o; key bracketright");
+    after = session_scene()->blobs[0];
+    support_near(after.sigma_x, before.sigma_x, 1e-9, "Shift X");
+    support_near(after.theta_rad, before.theta_rad, 1e-9, "Shift T");
+    assert_int_equal(scene2d_rank(session_scene(), 0), rank);
+}
+
+static void a_click_chooses_the_blob_in_front(void **state) {
+    (void)state;
+    start_widget();
+    double at[2];
+    session_point(session_scene()->blobs[3].mean, at); // teal, in front of orange
+    session_do("mousemove %.0f %.0f; click 1", at[0], at[1]);
+    assert_true(session_number("active") == 3);
+    session_do("key Tab");
+    assert_true(session_number("active") == 4);
+}
+
 // ---- anything goes ----
 
-static const char *const KEYS[] = {
-    "x",      "shift+x", "y",      "shift+y", "t",         "shift+t",     "o",      "shift+o", "n",      "d",
-    "Delete", "Tab",     "1",      "7",       "b",         "g",           "h",      "l",       "p",      "m",
-    "F1",     "Escape",  "0",      "plus",    "minus",     "bracketleft", "F11",    "Up",      "Left",   "Next",
-    "ctrl+z", "ctrl+y",  "ctrl+r", "ctrl+s",  "ctrl+plus", "ctrl+minus",  "ctrl+o", "space",   "Return", "ctrl+e"};
+static const char *const KEYS[] = {"x",       "shift+x",   "y",          "shift+y", "t",      "shift+t", "o",
+                                   "shift+o", "n",         "d",          "Delete",  "Tab",    "1",       "7",
+                                   "b",       "e",         "u",          "g",       "h",      "l",       "p",
+                                   "m",       "F1",        "Escape",     "0",       "plus",   "minus",   "bracketleft",
+                                   "F11",     "Up",        "Left",       "Next",    "ctrl+z", "ctrl+y",  "ctrl+r",
+                                   "ctrl+s",  "ctrl+plus", "ctrl+minus", "ctrl+o",  "space",  "Return",  "ctrl+e"};
 enum { KEY_COUNT = sizeof KEYS / sizeof KEYS[0] };
 
 static void write_event(FILE *script, Rng *rng) {
@@ -194,9 +273,9 @@ static void write_event(FILE *script, Rng *rng) {
     else if (kind < 6)
         fprintf(script, "%s 1\n", rng_below(rng, 2) ? "mousedown" : "mouseup");
     else if (kind < 7)
-        fprintf(script, "click %u\n", 1 + rng_below(rng, 5));
+        fprintf(script, "click --delay 5 %u\n", 1 + rng_below(rng, 5)); // without it, each takes 100 ms
     else
-        fprintf(script, "key %s\n", KEYS[rng_below(rng, KEY_COUNT)]);
+        fprintf(script, "key --delay 5 %s\n", KEYS[rng_below(rng, KEY_COUNT)]);
     if (rng_below(rng, 4) == 0) fprintf(script, "sleep 0.02\n");
 }
 
@@ -218,6 +297,48 @@ static void a_thousand_random_events_do_not_end_it(void **state) {
     assert_true(session_is_alive());
     assert_true(scene2d_check(session_scene(), "state")); // what it wrote can be read
     assert_int_equal(session_end(), 0);
+}
+
+// ---- a screen of high resolution ----
+
+static void with_two_px_a_point_the_mouse_is_where_it_points(void **state) {
+    (void)state;
+    session_need_screen();
+    session_end();
+    session_start("widget", "--ui-scale", "2", NULL);
+    double zoom = session_number("zoom"), at[2], middle[2], size[2];
+    Blob before = session_scene()->blobs[0];
+    session_point(before.mean, at);
+    session_drag(round(at[0]), round(at[1]), round(at[0]) + 64, round(at[1]) - 40);
+    Blob after = session_scene()->blobs[0];
+    support_near((after.mean[0] - before.mean[0]) * zoom, 64, 1e-9, "x moved, px");
+    support_near((after.mean[1] - before.mean[1]) * zoom, -40, 1e-9, "y moved, px");
+    session_place("σx", middle, size);
+    session_drag(middle[0], middle[1], middle[0] + size[0] / 4, middle[1]);
+    assert_true(session_scene()->blobs[0].sigma_x > before.sigma_x);
+    assert_int_equal(session_end(), 0);
+}
+
+// The same picture with four times as many px: shrunk, it is nearly the one of a plain screen.
+static void two_px_a_point_are_the_same_picture_sharper(void **state) {
+    (void)state;
+    double sum = 0;
+    Image8 pictures[2];
+    for (int k = 0; k < 2; k++) {
+        char folder[4096];
+        snprintf(folder, sizeof folder, "%s/density_%d", support_scratch(), k);
+        CommandResult r = command_run("demo", "popping", "--headless", "-o", folder, "--size", "1600x1000",
+                                      "--ui-scale", k ? "2" : "1", NULL);
+        command_expect(&r, 0);
+        assert_true(image_load8(support_path(folder, "step_01.png"), &pictures[k]));
+        assert_int_equal(pictures[k].width, k ? 3200 : 1600);
+    }
+    Image8 small = image8_downscale(&pictures[1], 8), plain = image8_downscale(&pictures[0], 4);
+    for (int i = 0; i < plain.width * plain.height * 3; i++) sum += abs(small.bytes[i] - plain.bytes[i]);
+    support_near(sum / (plain.width * plain.height * 3), 0, 1, "mean difference, of 255");
+    image8_destroy(&small);
+    image8_destroy(&plain);
+    for (int k = 0; k < 2; k++) image8_destroy(&pictures[k]);
 }
 
 // ---- the command ----
@@ -268,7 +389,14 @@ int main(void) {
         cmocka_unit_test(a_whole_drag_is_one_step),
         cmocka_unit_test(undo_restores_the_bytes),
         cmocka_unit_test(a_saved_scene_is_loaded_again),
+        cmocka_unit_test(zoom_and_pan_move_the_view_and_nothing_else),
+        cmocka_unit_test(hiding_the_panel_and_full_screen_come_back),
+        cmocka_unit_test(a_colour_is_dragged_and_undone),
+        cmocka_unit_test(every_slider_has_a_key),
+        cmocka_unit_test(a_click_chooses_the_blob_in_front),
         cmocka_unit_test(a_thousand_random_events_do_not_end_it),
+        cmocka_unit_test(with_two_px_a_point_the_mouse_is_where_it_points),
+        cmocka_unit_test(two_px_a_point_are_the_same_picture_sharper),
         cmocka_unit_test(a_screenshot_shows_the_picture),
         cmocka_unit_test(without_a_display_it_says_what_to_do),
         cmocka_unit_test(a_scene_that_is_wrong_is_named),
