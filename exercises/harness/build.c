@@ -64,14 +64,14 @@ static bool hash_file(SHA2_CTX *hash, const char *path) {
     return true;
 }
 
-static bool hash_folder(SHA2_CTX *hash, const char *folder) {
+static bool hash_folder(SHA2_CTX *hash, const char *folder, const char *ending) {
     char **names;
     int count;
     if (!file_list(folder, &names, &count)) return false;
     bool good = true;
     for (int i = 0; good && i < count; i++) {
         char *path = file_join(folder, names[i]);
-        good = !file_has_ending(names[i], ".c") || hash_file(hash, path);
+        good = !file_has_ending(names[i], ending) || hash_file(hash, path);
         mem_free(path);
     }
     file_list_free(names, count);
@@ -83,9 +83,9 @@ static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_
     SHA2_CTX hash;
     SHA256Init(&hash);
     char *head = file_join(job->root, "exercise.h"), *calls = file_join(job->root, "calls.h"),
-         *solutions = file_join(job->root, "solutions");
+         *solutions = file_join(job->root, "solutions"), *beside = file_folder_of(job->calls);
     bool good = hash_file(&hash, job->source) && hash_file(&hash, job->calls) && hash_file(&hash, head) &&
-                hash_file(&hash, calls) && hash_folder(&hash, solutions);
+                hash_file(&hash, calls) && hash_folder(&hash, solutions, ".c") && hash_folder(&hash, beside, ".h");
     char *how = mem_format("%s %s %s", compiler, PRECISION_NAMES[job->precision], job->source);
     SHA256Update(&hash, (const uint8_t *)how, strlen(how));
     for (int i = 0; i < FLAG_COUNT; i++) SHA256Update(&hash, (const uint8_t *)FLAGS[i], strlen(FLAGS[i]) + 1);
@@ -93,6 +93,7 @@ static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_
     mem_free(head);
     mem_free(calls);
     mem_free(solutions);
+    mem_free(beside);
     SHA256End(&hash, hex);
     return good;
 }

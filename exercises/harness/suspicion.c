@@ -93,16 +93,28 @@ static bool take_from(const char *library, const Rung *rung, Precision precision
     return subject != NULL;
 }
 
-// Of the cases in which `answer` is not `ours`: how many are `variant`'s?
-static void agree(const Testimony *answer, const Testimony *ours, const Testimony *variant, double same, int *matched,
-                  int *cases) {
-    *matched = *cases = 0;
+// Of the cases in which `answer` is not `ours`: how many are `variant`'s? And how many of all, which tells a variant from one that
+// makes the same mistake and more.
+typedef struct {
+    int matched, cases, alike;
+} Agreement;
+
+static Agreement agree(const Testimony *answer, const Testimony *ours, const Testimony *variant, double same) {
+    Agreement a = {0};
     for (int i = 0; i < CASES_ALL; i++) {
-        if (numbers_same(&answer->of[i], &ours->of[i], same)) continue;
         if (answer->of[i].count == 0) continue;
-        ++*cases;
-        *matched += numbers_same(&answer->of[i], &variant->of[i], same);
+        bool is_variants = numbers_same(&answer->of[i], &variant->of[i], same);
+        a.alike += is_variants;
+        if (numbers_same(&answer->of[i], &ours->of[i], same)) continue;
+        a.cases++;
+        a.matched += is_variants;
     }
+    return a;
+}
+
+// The matched part of the differing cases decides, then that of all.
+static double rank_of(const Agreement *a) {
+    return a->cases ? (double)a->matched / a->cases + 1e-3 * a->alike / CASES_ALL : 0;
 }
 
 bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung, Precision precision, Subject *subject,
@@ -119,16 +131,15 @@ bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung
     double best = 0;
     for (int i = 0; good && i < count; i++) {
         Testimony variant = {0};
-        int matched = 0, cases = 0;
+        Agreement a = {0};
         if (take_from(jobs[i + 1].library, rung, precision, &variant))
-            agree(&answer, &ours, &variant, SAME[precision], &matched, &cases);
+            a = agree(&answer, &ours, &variant, SAME[precision]);
         testimony_free(&variant);
-        double part = cases ? (double)matched / cases : 0;
-        if (part < AGREES_PART || part <= best) continue;
-        best = part;
+        if (a.matched < AGREES_PART * a.cases || rank_of(&a) <= best) continue;
+        best = rank_of(&a);
         suspicion->found = true;
-        suspicion->matched = matched;
-        suspicion->cases = cases;
+        suspicion->matched = a.matched;
+        suspicion->cases = a.cases;
         good = suspicion_describe(paths[i], suspicion->name, suspicion->text);
     }
     for (int i = 0; i <= count; i++) build_free(&jobs[i]);

@@ -1,0 +1,19 @@
+// background_unattenuated.c - the background is added whole: it lies behind everything, so only the part T_end of it
+// gets through.
+#include "exercises/exercise.h"
+
+int composite(const Hit *h, int n, REAL Tmin, const REAL bg[3], REAL out[3], REAL *Tend) {
+    const REAL ALPHA_MAX = (REAL)0.99, ALPHA_MIN = (REAL)1 / 255;
+    REAL T = 1;
+    int i = 0;
+    for (int c = 0; c < 3; c++) out[c] = 0;
+    for (; i < n && T >= Tmin; i++) {
+        if (h[i].alpha < ALPHA_MIN) continue;
+        REAL alpha = h[i].alpha < ALPHA_MAX ? h[i].alpha : ALPHA_MAX;
+        for (int c = 0; c < 3; c++) out[c] += T * alpha * h[i].rgb[c];
+        T *= 1 - alpha;
+    }
+    for (int c = 0; c < 3; c++) out[c] += bg[c];
+    *Tend = T;
+    return i;
+}

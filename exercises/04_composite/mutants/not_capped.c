@@ -1,0 +1,19 @@
+// not_capped.c - an alpha above 0.99 is used as it is: one that reaches 1 makes T zero, and the gradient of all that
+// lies behind it with it.
+#include "exercises/exercise.h"
+
+int composite(const Hit *h, int n, REAL Tmin, const REAL bg[3], REAL out[3], REAL *Tend) {
+    const REAL ALPHA_MIN = (REAL)1 / 255;
+    REAL T = 1;
+    int i = 0;
+    for (int c = 0; c < 3; c++) out[c] = 0;
+    for (; i < n && T >= Tmin; i++) {
+        if (h[i].alpha < ALPHA_MIN) continue;
+        REAL alpha = h[i].alpha;
+        for (int c = 0; c < 3; c++) out[c] += T * alpha * h[i].rgb[c];
+        T *= 1 - alpha;
+    }
+    for (int c = 0; c < 3; c++) out[c] += T * bg[c];
+    *Tend = T;
+    return i;
+}

@@ -1,0 +1,20 @@
+// stop_before.c - the walk stops before the hit that would bring T below Tmin: what it leaves out may be Tmin / (1 -
+// 0.99), a hundred times Tmin. Blend it, then stop.
+#include "exercises/exercise.h"
+
+int composite(const Hit *h, int n, REAL Tmin, const REAL bg[3], REAL out[3], REAL *Tend) {
+    const REAL ALPHA_MAX = (REAL)0.99, ALPHA_MIN = (REAL)1 / 255;
+    REAL T = 1;
+    int i = 0;
+    for (int c = 0; c < 3; c++) out[c] = 0;
+    for (; i < n && T >= Tmin; i++) {
+        if (h[i].alpha < ALPHA_MIN) continue;
+        REAL alpha = h[i].alpha < ALPHA_MAX ? h[i].alpha : ALPHA_MAX;
+        if (T * (1 - alpha) < Tmin) break;
+        for (int c = 0; c < 3; c++) out[c] += T * alpha * h[i].rgb[c];
+        T *= 1 - alpha;
+    }
+    for (int c = 0; c < 3; c++) out[c] += T * bg[c];
+    *Tend = T;
+    return i;
+}
