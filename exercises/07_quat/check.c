@@ -25,24 +25,24 @@ static bool allows(const double *q) { return length_of(q) >= LENGTH_LEAST; }
 
 // ---- the rotation ----
 
-// A case is the axis (0 x, 1 y, 2 z), the angle in rad and the length of q.
+// A case is the axis (0 x, 1 y, 2 z) and the two parts of q that are not 0. The length stays away from 1, where a q that is
+// not normalised is nearly right and a message would not show why.
 static void draw_about_axis(Rng *rng, int k, double *in) {
+    double half_rad = rng_range(rng, -3, 3), away = rng_range(rng, log(1.5), log(LENGTH_MAX));
+    double wanted = exp(k % 2 ? -away : away);
     in[0] = k % 3;
-    in[1] = rng_range(rng, -3, 3);
-    in[2] = exp(rng_range(rng, log(LENGTH_MIN), log(LENGTH_MAX)));
+    in[1] = wanted * cos(half_rad);
+    in[2] = wanted * sin(half_rad);
 }
 
 static bool allows_about_axis(const double *in) {
-    return (in[0] == 0 || in[0] == 1 || in[0] == 2) && fabs(in[1]) <= M_PI && in[2] >= LENGTH_LEAST;
+    double length = hypot(in[1], in[2]);
+    return (in[0] == 0 || in[0] == 1 || in[0] == 2) && length >= LENGTH_LEAST && fabs(length - 1) > 0.2;
 }
 
-// q is rounded to float, and the angle taken from what it then is.
-static double quaternion_about_axis(const double *in, double q[4]) {
-    int part = 1 + (int)in[0];
-    for (int i = 0; i < 4; i++) q[i] = 0;
-    q[0] = (double)(float)(in[2] * cos(in[1] / 2));
-    q[part] = (double)(float)(in[2] * sin(in[1] / 2));
-    return 2 * atan2(q[part], q[0]);
+static void quaternion_about_axis(const double *in, double q[4]) {
+    q[0] = in[1];
+    for (int i = 0; i < 3; i++) q[1 + i] = i == in[0] ? in[2] : 0;
 }
 
 static Mat3 matrix_about_axis(int axis, double angle_rad) {
@@ -56,9 +56,10 @@ static Mat3 matrix_about_axis(int axis, double angle_rad) {
 }
 
 static void about_axis(Trial *trial, const double *in) {
-    double q[4], R[9], angle = quaternion_about_axis(in, q);
+    double q[4], R[9];
+    quaternion_about_axis(in, q);
     CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), OUT_ARRAY(R, 9));
-    Mat3 want = matrix_about_axis((int)in[0], angle);
+    Mat3 want = matrix_about_axis((int)in[0], 2 * atan2(in[2], in[1]));
     trial_near(trial, "R of a turn about one coordinate axis, row by row", R, want.m, 9, 1);
 }
 
