@@ -229,9 +229,10 @@ static ImageF three_views(Sym3 S, double half_width) {
     ImageF views[3] = {blob_picture((Sym2){S.xx, S.xy, S.yy}, half_width),
                        blob_picture((Sym2){S.xx, S.xz, S.zz}, half_width),
                        blob_picture((Sym2){S.yy, S.yz, S.zz}, half_width)};
-    ImageF all = imagef_create(3 * views[0].width, views[0].height, 3);
+    int side = views[0].width;
+    ImageF all = imagef_create(3 * side, side, 3);
     for (int k = 0; k < 3; k++) {
-        imagef_paste(&all, &views[k], k * views[0].width, 0);
+        imagef_paste(&all, &views[k], k * side, 0);
         imagef_destroy(&views[k]);
     }
     return all;
