@@ -1,0 +1,16 @@
+// divides_first.c - M9: the division by z comes before the question whether z is above 0: at the camera's centre 0 / 0 is NaN, and NaN then
+// spreads through every gradient.
+#include "exercises/exercise.h"
+
+#define project solution_project
+#include "exercises/solutions/camera.c"
+#undef project
+
+int project(const Cam *c, const REAL p[3], REAL uv[2], REAL *z) {
+    int seen = solution_project(c, p, uv, z);
+    REAL x = c->R[0] * p[0] + c->R[1] * p[1] + c->R[2] * p[2] + c->t[0];
+    REAL y = c->R[3] * p[0] + c->R[4] * p[1] + c->R[5] * p[2] + c->t[1];
+    uv[0] = c->fx * x / *z + c->cx;
+    uv[1] = c->fy * y / *z + c->cy;
+    return seen;
+}
