@@ -11,8 +11,11 @@
 #include <unistd.h>
 
 extern const Exercise EXERCISE_COV2;
+extern const Exercise EXERCISE_EWA;
+extern const Exercise EXERCISE_EWA_ERROR;
+extern const Exercise EXERCISE_SH;
 
-const Exercise *const EXERCISES[EXERCISE_COUNT] = {&EXERCISE_COV2};
+const Exercise *const EXERCISES[EXERCISE_COUNT] = {&EXERCISE_COV2, &EXERCISE_EWA, &EXERCISE_EWA_ERROR, &EXERCISE_SH};
 
 static char *folder_name(const Exercise *e) { return mem_format("%02d_%s", e->number, e->name); }
 
