@@ -6,6 +6,7 @@
 #define SPLATLAB_EXERCISES_EXERCISE_H
 
 #include <stddef.h>
+#include <stdint.h>
 #include <tgmath.h>
 
 #ifndef REAL
@@ -40,5 +41,23 @@ typedef struct {
     int width, height;
     const REAL *values; // (height, width), top row first
 } Img;
+
+// The i-th draw of a seed: three independent normal numbers, mean 0 and standard deviation 1. The same for everybody, in
+// float and in double, and no draw knows of another: draw i can be asked for at any time.
+static inline void draw_normals(unsigned long seed, unsigned long i, REAL z[3]) {
+    double u[4]; // in (0, 1)
+    for (uint64_t k = 0; k < 4; k++) {
+        // A counter, scrambled (SplitMix64: Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators").
+        uint64_t x = ((uint64_t)seed << 32) + 4 * (uint64_t)i + k + 1;
+        x *= UINT64_C(0x9e3779b97f4a7c15);
+        x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+        x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+        u[k] = ((double)((x ^ (x >> 31)) >> 12) + 0.5) / 4503599627370496.0; // 2^52
+    }
+    double near = sqrt(-2 * log(u[0])), far = sqrt(-2 * log(u[2])); // Box and Muller 1958
+    z[0] = (REAL)(near * cos(2 * M_PI * u[1]));
+    z[1] = (REAL)(near * sin(2 * M_PI * u[1]));
+    z[2] = (REAL)(far * cos(2 * M_PI * u[3]));
+}
 
 #endif

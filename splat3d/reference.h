@@ -70,8 +70,11 @@ typedef struct {
     double rgb[3];
 } Splat2Gradient;
 
-// Sigma' = J W Sigma W^T J^T + low pass, px^2, of a Sigma in the world whose mean is at mean_cam (z > 0) in camera axes.
-Sym2 reference_ewa_forward(const Camera *camera, Vec3 mean_cam, Sym3 covariance, double low_pass_px2);
+// The EWA projection of a shape alone: J W covariance W^T J^T without the low-pass, px^2. mean_cam: in camera axes, z > 0;
+// covariance: in the world.
+Sym2 reference_ewa_forward(const Camera *camera, Vec3 mean_cam, Sym3 covariance);
+void reference_ewa_backward(const Camera *camera, Vec3 mean_cam, Sym3 covariance, Sym2 d_projected, Vec3 *d_mean_cam,
+                            Sym3 *d_covariance);
 
 void reference_project_forward(const GaussiansD *g, int i, const Camera *camera, const RenderSettings *settings,
                                Splat2 *splat);

@@ -73,25 +73,31 @@ static Sym2 ewa_covariance_forward(EwaMap map, Sym3 sigma) {
     return (Sym2){vec3_dot(map.t_x, sigma_t_x), vec3_dot(map.t_x, sigma_t_y), vec3_dot(map.t_y, sigma_t_y)};
 }
 
-Sym2 reference_ewa_forward(const Camera *camera, Vec3 mean_cam, Sym3 covariance, double low_pass_px2) {
-    return sym2_add_diagonal(ewa_covariance_forward(ewa_map_forward(camera, mean_cam), covariance), low_pass_px2);
-}
-
 // Sigma is symmetric, so t_x . Sigma t_x moves with t_x by 2 Sigma t_x, and t_x . Sigma t_y by Sigma t_y with t_x and
 // by Sigma t_x with t_y. A stored off-diagonal number of Sigma stands for two entries, hence its two products of t's.
+// Sets *d_map, and adds to *d_sigma.
 static void ewa_covariance_backward(EwaMap map, Sym3 sigma, Sym2 d, EwaMap *d_map, Sym3 *d_sigma) {
     Vec3 x = map.t_x, y = map.t_y;
     Vec3 sigma_x = sym3_apply(sigma, x), sigma_y = sym3_apply(sigma, y);
     d_map->t_x = vec3_add(vec3_scale(sigma_x, 2 * d.xx), vec3_scale(sigma_y, d.xy));
     d_map->t_y = vec3_add(vec3_scale(sigma_x, d.xy), vec3_scale(sigma_y, 2 * d.yy));
-    *d_sigma = (Sym3){
-        .xx = d.xx * x.x * x.x + d.xy * x.x * y.x + d.yy * y.x * y.x,
-        .yy = d.xx * x.y * x.y + d.xy * x.y * y.y + d.yy * y.y * y.y,
-        .zz = d.xx * x.z * x.z + d.xy * x.z * y.z + d.yy * y.z * y.z,
-        .xy = 2 * d.xx * x.x * x.y + d.xy * (x.x * y.y + x.y * y.x) + 2 * d.yy * y.x * y.y,
-        .xz = 2 * d.xx * x.x * x.z + d.xy * (x.x * y.z + x.z * y.x) + 2 * d.yy * y.x * y.z,
-        .yz = 2 * d.xx * x.y * x.z + d.xy * (x.y * y.z + x.z * y.y) + 2 * d.yy * y.y * y.z,
-    };
+    d_sigma->xx += d.xx * x.x * x.x + d.xy * x.x * y.x + d.yy * y.x * y.x;
+    d_sigma->yy += d.xx * x.y * x.y + d.xy * x.y * y.y + d.yy * y.y * y.y;
+    d_sigma->zz += d.xx * x.z * x.z + d.xy * x.z * y.z + d.yy * y.z * y.z;
+    d_sigma->xy += 2 * d.xx * x.x * x.y + d.xy * (x.x * y.y + x.y * y.x) + 2 * d.yy * y.x * y.y;
+    d_sigma->xz += 2 * d.xx * x.x * x.z + d.xy * (x.x * y.z + x.z * y.x) + 2 * d.yy * y.x * y.z;
+    d_sigma->yz += 2 * d.xx * x.y * x.z + d.xy * (x.y * y.z + x.z * y.y) + 2 * d.yy * y.y * y.z;
+}
+
+Sym2 reference_ewa_forward(const Camera *camera, Vec3 mean_cam, Sym3 covariance) {
+    return ewa_covariance_forward(ewa_map_forward(camera, mean_cam), covariance);
+}
+
+void reference_ewa_backward(const Camera *camera, Vec3 mean_cam, Sym3 covariance, Sym2 d_projected, Vec3 *d_mean_cam,
+                            Sym3 *d_covariance) {
+    EwaMap d_map;
+    ewa_covariance_backward(ewa_map_forward(camera, mean_cam), covariance, d_projected, &d_map, d_covariance);
+    *d_mean_cam = vec3_add(*d_mean_cam, ewa_map_backward(camera, mean_cam, d_map));
 }
 
 static Vec3 mean_of(const GaussiansD *g, int i) {
@@ -122,7 +128,7 @@ void reference_project_forward(const GaussiansD *g, int i, const Camera *camera,
     s.mean_px[0] = camera->fx * c.x / c.z + camera->cx; // (2)
     s.mean_px[1] = camera->fy * c.y / c.z + camera->cy;
     Sym3 sigma = reference_covariance_forward(gaussiansd_at(g, FIELD_LOG_SCALE, i), gaussiansd_at(g, FIELD_QUAT, i));
-    s.covariance = reference_ewa_forward(camera, c, sigma, (double)settings->low_pass_px2);
+    s.covariance = sym2_add_diagonal(reference_ewa_forward(camera, c, sigma), (double)settings->low_pass_px2);
     s.opacity = sigmoid(*gaussiansd_at(g, FIELD_OPACITY_LOGIT, i));
     if (!covariance_conic(s.covariance, &s.conic) || !reaches_picture(&s, camera)) return;
 
@@ -142,15 +148,14 @@ void reference_project_backward(const GaussiansD *g, int i, const Camera *camera
     Vec3 c = camera_point(camera, mean_of(g, i));
 
     // The shape: conic, Sigma', then Sigma and J W.
-    Sym3 sigma = reference_covariance_forward(log_scale, quat), d_sigma;
-    EwaMap map = ewa_map_forward(camera, c), d_map;
+    Sym3 sigma = reference_covariance_forward(log_scale, quat), d_sigma = {0};
     Sym2 d_covariance = covariance_conic_backward(splat.conic, d_splat->conic);
-    ewa_covariance_backward(map, sigma, d_covariance, &d_map, &d_sigma);
+    Vec3 d_c = {0};
+    reference_ewa_backward(camera, c, sigma, d_covariance, &d_c, &d_sigma);
     reference_covariance_backward(log_scale, quat, d_sigma, gaussiansd_at(d_model, FIELD_LOG_SCALE, i),
                                   gaussiansd_at(d_model, FIELD_QUAT, i));
 
-    // The mean: through J, through (2), and as the depth that RENDER_DEPTH shows.
-    Vec3 d_c = ewa_map_backward(camera, c, d_map);
+    // The mean: through J (above), through (2), and as the depth that RENDER_DEPTH shows.
     double d_x = camera->fx / c.z * d_splat->mean_px[0], d_y = camera->fy / c.z * d_splat->mean_px[1];
     d_c = vec3_add(d_c, vec3(d_x, d_y, -(d_x * c.x + d_y * c.y) / c.z));
     if (settings->what == RENDER_DEPTH) d_c.z += d_splat->rgb[0];

@@ -10,10 +10,12 @@
 #include <string.h>
 #include <unistd.h>
 
-extern const Exercise EXERCISE_COV2, EXERCISE_CONIC, EXERCISE_COMPOSITE, EXERCISE_QUAT, EXERCISE_COV3, EXERCISE_CAMERA;
+extern const Exercise EXERCISE_COV2, EXERCISE_CONIC, EXERCISE_COMPOSITE, EXERCISE_QUAT, EXERCISE_COV3, EXERCISE_CAMERA,
+    EXERCISE_EWA, EXERCISE_EWA_ERROR, EXERCISE_SH;
 
-const Exercise *const EXERCISES[EXERCISE_COUNT] = {&EXERCISE_COV2, &EXERCISE_CONIC, &EXERCISE_COMPOSITE,
-                                                   &EXERCISE_QUAT, &EXERCISE_COV3,  &EXERCISE_CAMERA};
+const Exercise *const EXERCISES[EXERCISE_COUNT] = {&EXERCISE_COV2, &EXERCISE_CONIC,     &EXERCISE_COMPOSITE,
+                                                   &EXERCISE_QUAT, &EXERCISE_COV3,      &EXERCISE_CAMERA,
+                                                   &EXERCISE_EWA,  &EXERCISE_EWA_ERROR, &EXERCISE_SH};
 
 static char *folder_name(const Exercise *e) { return mem_format("%02d_%s", e->number, e->name); }
 

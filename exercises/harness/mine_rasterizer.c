@@ -139,10 +139,10 @@ static void flatten(Stage *s, double *S3) {
     bool is_mine = call_splats(s, MINE_EWA, "cov2_project", args, 4);
     for (int k = 0; k < s->count; k++) {
         const double *a = S3 + 6 * k, *b = S2 + 3 * k;
-        s->splats[k].covariance = is_mine ? (Sym2){b[0], b[1], b[2]}
-                                          : reference_ewa_forward(s->camera, vec3(t[3 * k], t[3 * k + 1], t[3 * k + 2]),
-                                                                  (Sym3){a[0], a[1], a[2], a[3], a[4], a[5]},
-                                                                  (double)s->settings->low_pass_px2);
+        Sym3 shape = {a[0], a[1], a[2], a[3], a[4], a[5]};
+        Sym2 flat = reference_ewa_forward(s->camera, vec3(t[3 * k], t[3 * k + 1], t[3 * k + 2]), shape);
+        s->splats[k].covariance =
+            is_mine ? (Sym2){b[0], b[1], b[2]} : sym2_add_diagonal(flat, (double)s->settings->low_pass_px2);
     }
     mem_free(t);
 }
