@@ -10,126 +10,153 @@
 
 // ---- text ----
 
-typedef struct {
-    const char *good, *bad, *strong, *end;
-} Colours;
+enum { NUMBER_WIDTH = 13 };
 
-static Colours colours(bool has_colour) {
-    return has_colour ? (Colours){"\033[32m", "\033[31m", "\033[1m", "\033[0m"} : (Colours){"", "", "", ""};
+static void print_row(const Page *page, const char *label, const double *values, int count) {
+    fprintf(page->out, "  %-*s", PAGE_LABEL - 2, label);
+    for (int i = 0; i < count; i++)
+        if (number_is_unwritten(values[i]))
+            fprintf(page->out, "%*s", NUMBER_WIDTH, "(unwritten)");
+        else
+            fprintf(page->out, "%*.6g", NUMBER_WIDTH, values[i]);
+    fputc('\n', page->out);
 }
 
-static void print_number(FILE *out, double value) {
-    if (number_is_unwritten(value))
-        fprintf(out, " %12s", "(unwritten)");
-    else
-        fprintf(out, " %12.6g", value);
-}
-
-static void print_row(FILE *out, const char *label, const double *values, int count) {
-    fprintf(out, "  %-11s", label);
-    for (int i = 0; i < count && i < TRIAL_SHOWN_MAX; i++) print_number(out, values[i]);
-    if (count > TRIAL_SHOWN_MAX) fprintf(out, "  (%d of %d)", TRIAL_SHOWN_MAX, count);
-    fputc('\n', out);
-}
-
-static void print_numbers(FILE *out, const Failure *f) {
-    print_row(out, "yours", f->yours, f->count);
-    print_row(out, f->is_limit ? "at most" : "expected", f->expected, f->count);
+static bool has_unwritten(const Failure *f) {
     for (int i = 0; i < f->count && i < TRIAL_SHOWN_MAX; i++)
-        if (number_is_unwritten(f->yours[i])) {
-            fprintf(out, "  %-11sno line of yours wrote the number that is marked\n", "note");
-            return;
-        }
-    if (f->is_limit) return;
-    if (isinf(f->error))
-        fprintf(out, "  %-11snumber %d is not a number\n", "off by", f->worst + 1);
-    else
-        fprintf(out, "  %-11s%.3g of the scale, at number %d; tolerance %.1e\n", "off by", f->error, f->worst + 1,
-                f->tolerance);
+        if (number_is_unwritten(f->yours[i])) return true;
+    return false;
 }
 
-static void print_right(FILE *out, const Verdict *v, int r) {
+// Yours above expected, as many to a line as there is room for, and a mark under the worst.
+static void print_numbers(const Page *page, const Failure *f) {
+    int shown = f->count < TRIAL_SHOWN_MAX ? f->count : TRIAL_SHOWN_MAX;
+    int of_line = (page->columns - PAGE_LABEL) / NUMBER_WIDTH;
+    for (int from = 0; from < shown; from += of_line) {
+        int count = shown - from < of_line ? shown - from : of_line;
+        print_row(page, "yours", f->yours + from, count);
+        print_row(page, f->is_limit ? "at most" : "expected", f->expected + from, count);
+        if (shown > 1 && f->worst >= from && f->worst < from + count)
+            fprintf(page->out, "%*s\n", PAGE_LABEL + (f->worst - from + 1) * NUMBER_WIDTH, "^");
+    }
+    if (f->count > shown) page_paragraph(page, "", PAGE_PLAIN, "(%d of %d numbers)", shown, f->count);
+    if (has_unwritten(f))
+        page_paragraph(page, "note", PAGE_BAD, "no line of yours wrote what is called (unwritten)");
+    else if (isinf(f->error))
+        page_paragraph(page, "off by", PAGE_BAD, "number %d is not a number", f->worst + 1);
+    else if (!f->is_limit)
+        page_paragraph(page, "off by", PAGE_PLAIN, "%.3g of the scale; tolerance %.1e", f->error, f->tolerance);
+}
+
+static void print_right(const Page *page, const Verdict *v, int r) {
     const RungResult *result = &v->rungs[r];
-    fprintf(out, "  %-11s", "right");
-    int before = 0;
-    for (int i = 0; i < v->exercise->rung_count; i++)
-        if (v->rungs[i].passed) fprintf(out, "%s%s", before++ ? ", " : "", v->exercise->rungs[i].name);
-    if (before) fputs("; ", out);
-    fprintf(out, "%d of %d cases of this one", result->cases - result->failed_cases, result->cases);
-    if (result->precision == PRECISION_FLOAT && !v->exercise->rungs[r].double_only)
-        fputs(", all that were tried in double: digits are lost in float", out);
-    fputc('\n', out);
+    char *names = mem_text("");
+    for (int i = 0; i < v->exercise->rung_count; i++) {
+        if (!v->rungs[i].passed || v->rungs[i].skipped) continue;
+        char *longer = mem_format("%s%s%s", names, names[0] ? ", " : "", v->exercise->rungs[i].name);
+        mem_free(names);
+        names = longer;
+    }
+    bool is_lost = result->precision == PRECISION_FLOAT && !v->exercise->rungs[r].double_only;
+    page_paragraph(page, "right", PAGE_PLAIN, "%s%s%d of %d cases of this one%s", names, names[0] ? "; " : "",
+                   result->cases - result->failed_cases, result->cases,
+                   is_lost ? ", all that were tried in double: digits are lost in float" : "");
+    mem_free(names);
 }
 
-static void print_pictures(FILE *out, const char *root, const Verdict *v) {
+static void print_pictures(const Page *page, const char *root, const Verdict *v) {
     char *paths[PICTURE_COUNT];
     for (int k = 0; k < PICTURE_COUNT; k++) paths[k] = pictures_path(root, v->exercise, (PictureKind)k);
-    fprintf(out, "  %-11s%s, %s, %s   (splatlab exercise show %d)\n", "pictures", paths[0], paths[1], paths[2],
-            v->exercise->number);
+    page_paragraph(page, "pictures", PAGE_PLAIN, "%s %s %s (splatlab exercise show %d)", paths[0], paths[1], paths[2],
+                   v->exercise->number);
     for (int k = 0; k < PICTURE_COUNT; k++) mem_free(paths[k]);
 }
 
-static void print_failure(FILE *out, const char *root, const Verdict *v, int r, Colours c) {
+static void print_next(const Page *page, const char *root, const Verdict *v, const RungResult *result) {
+    const Exercise *e = v->exercise;
+    if (result->failure.trouble.kind == TROUBLE_NOT_STARTED)
+        page_paragraph(page, "next", PAGE_PLAIN,
+                       "read %s/%02d_%s/README.md, then write it; hints: splatlab exercise hint %d", root, e->number,
+                       e->name, e->number);
+    else
+        page_paragraph(page, "next", PAGE_PLAIN, "splatlab exercise hint %d; replay: splatlab exercise run %d --seed %llu",
+                       e->number, e->number, (unsigned long long)result->seed);
+}
+
+static void print_failure(const Page *page, const char *root, const Verdict *v, int r) {
     const Exercise *e = v->exercise;
     const RungResult *result = &v->rungs[r];
     const Failure *f = &result->failure;
-    fprintf(out, "%sE%02d %s%s  rung %d of %d: %s  (%s)\n", c.strong, e->number, e->name, c.end, r + 1, e->rung_count,
-            e->rungs[r].claim, PRECISION_NAMES[result->precision]);
+    fputc('\n', page->out);
+    page_colour(page, PAGE_STRONG);
+    char *head = mem_format("E%02d %s  rung %d of %d: %s  (%s)", e->number, e->name, r + 1, e->rung_count,
+                            e->rungs[r].claim, PRECISION_NAMES[result->precision]);
+    page_wrap(page, 0, 4, head);
+    mem_free(head);
+    page_colour(page, PAGE_PLAIN);
     if (f->trouble.kind == TROUBLE_NOT_STARTED) {
-        fprintf(out, "  %s%s%s\n", c.bad, f->trouble.text, c.end);
+        page_paragraph(page, "", PAGE_BAD, "%s", f->trouble.text);
     } else {
-        fprintf(out, "  %-11s%s\n", "case", f->call);
+        page_paragraph(page, "case", PAGE_PLAIN, "%s", f->call);
         if (f->trouble.kind != TROUBLE_NONE) {
-            fprintf(out, "  %-11s%s%s%s\n", "happened", c.bad, f->trouble.text, c.end);
+            page_paragraph(page, "happened", PAGE_BAD, "%s", f->trouble.text);
         } else {
-            fprintf(out, "  %-11s%s\n", "compared", f->claim);
-            print_numbers(out, f);
+            page_paragraph(page, "compared", PAGE_PLAIN, "%s", f->claim);
+            print_numbers(page, f);
         }
-        print_right(out, v, r);
+        print_right(page, v, r);
     }
     if (v->suspicions[r].found)
-        fprintf(out, "  %-11s%s  (%d of %d cases agree)\n", "looks like", v->suspicions[r].text,
-                v->suspicions[r].matched, v->suspicions[r].cases);
-    if (v->pictured >= 0) print_pictures(out, root, v);
-    if (f->trouble.kind == TROUBLE_NOT_STARTED)
-        fprintf(out, "  %-11sread %s/%02d_%s/README.md, then write it; hints: splatlab exercise hint %d\n", "next",
-                root, e->number, e->name, e->number);
-    else
-        fprintf(out, "  %-11ssplatlab exercise hint %d     replay: splatlab exercise run %d --seed %llu\n", "next",
-                e->number, e->number, (unsigned long long)result->seed);
+        page_paragraph(page, "looks like", PAGE_STRONG, "%s  (%d of %d cases agree)", v->suspicions[r].text,
+                       v->suspicions[r].matched, v->suspicions[r].cases);
+    if (v->pictured >= 0) print_pictures(page, root, v);
+    print_next(page, root, v, result);
 }
 
-static void print_rungs(FILE *out, const Verdict *v, Colours c) {
+static void print_rungs(const Page *page, const Verdict *v) {
     for (int r = 0; r < v->exercise->rung_count; r++) {
         const RungResult *result = &v->rungs[r];
-        bool is_open = !result->ran || result->failure.trouble.kind == TROUBLE_NOT_STARTED;
-        const char *mark = is_open ? "-" : result->passed ? "ok" : "FAIL";
-        const char *colour = is_open ? "" : result->passed ? c.good : c.bad;
-        fprintf(out, "  %s%-4s%s %-14s %s\n", colour, mark, c.end, v->exercise->rungs[r].name,
-                v->exercise->rungs[r].claim);
+        bool is_open = !result->ran || result->skipped || result->failure.trouble.kind == TROUBLE_NOT_STARTED;
+        fputs("  ", page->out);
+        page_colour(page, is_open ? PAGE_PLAIN : result->passed ? PAGE_GOOD : PAGE_BAD);
+        fprintf(page->out, "%-4s", is_open ? "-" : result->passed ? "ok" : "FAIL");
+        page_colour(page, PAGE_PLAIN);
+        fprintf(page->out, " %-14s ", v->exercise->rungs[r].name);
+        char *claim = mem_format("%s%s%s", v->exercise->rungs[r].claim, result->skipped ? ": " : "",
+                                 result->skipped ? result->skipped : "");
+        page_wrap(page, 22, 22, claim);
+        mem_free(claim);
     }
 }
 
-void report_text(const char *root, const Verdict *v, FILE *out, bool has_colour) {
-    Colours c = colours(has_colour);
+static void print_passed(const Page *page, const Verdict *v) {
     const Exercise *e = v->exercise;
-    if (v->diagnostics[0]) fputs(v->diagnostics, out);
+    page_colour(page, PAGE_GOOD);
+    fprintf(page->out, "\nE%02d %s: passed", e->number, e->name);
+    page_colour(page, PAGE_PLAIN);
+    fprintf(page->out, ", all %d rungs in float and double, %d seed%s (%.1f s)\n", e->rung_count, v->seed_count,
+            v->seed_count == 1 ? "" : "s", v->seconds);
+    page_paragraph(page, "unlocked", PAGE_PLAIN, "%s", e->unlocks);
+    page_paragraph(page, "compare", PAGE_PLAIN, "splatlab exercise solution %d shows ours", e->number);
+}
+
+void report_text(const char *root, const Verdict *v, const Page *page) {
+    const Exercise *e = v->exercise;
+    if (v->diagnostics[0]) fputs(v->diagnostics, page->out);
     if (!v->compiled) {
-        fprintf(out, "%sE%02d %s%s does not compile yet: the first message above is the one to read\n", c.bad,
-                e->number, e->name, c.end);
+        page_colour(page, PAGE_BAD);
+        fprintf(page->out, "E%02d %s", e->number, e->name);
+        page_colour(page, PAGE_PLAIN);
+        fprintf(page->out, " does not compile yet: the first message above is the one to read\n");
         return;
     }
-    if (v->printed[0]) fprintf(out, "-- printed by your code --\n%s\n--\n", v->printed);
+    if (v->printed[0]) fprintf(page->out, "-- printed by your code --\n%s\n--\n", v->printed);
     int failed = verdict_first_failed(v);
-    print_rungs(out, v, c);
-    if (failed >= 0) {
-        print_failure(out, root, v, failed, c);
-        return;
-    }
-    fprintf(out, "%sE%02d %s: passed%s, all %d rungs in float and double, 17 seeds (%.1f s)\n", c.good, e->number,
-            e->name, c.end, e->rung_count, v->seconds);
-    fprintf(out, "  %-11s%s\n  %-11ssplatlab exercise solution %d shows ours\n", "unlocked", e->unlocks, "compare",
-            e->number);
+    print_rungs(page, v);
+    if (failed >= 0)
+        print_failure(page, root, v, failed);
+    else
+        print_passed(page, v);
 }
 
 // ---- JSON ----
@@ -149,6 +176,7 @@ static json_t *rung_json(const Verdict *v, int r) {
     json_t *o = json_pack("{ss ss sb sb si si}", "name", v->exercise->rungs[r].name, "claim",
                           v->exercise->rungs[r].claim, "passed", result->passed, "ran", result->ran, "cases",
                           result->cases, "failed_cases", result->failed_cases);
+    if (result->skipped) json_object_set_new(o, "skipped", json_string(result->skipped));
     if (!result->ran || result->passed) return o;
     bool is_wrong = f->trouble.kind == TROUBLE_NONE;
     json_object_set_new(o, "seed", json_integer((json_int_t)result->seed));

@@ -2,14 +2,14 @@
 #ifndef SPLATLAB_EXERCISES_HARNESS_REPORT_H
 #define SPLATLAB_EXERCISES_HARNESS_REPORT_H
 
+#include "exercises/harness/page.h"
 #include "exercises/harness/verdict.h"
 
 #include <jansson.h>
-#include <stdio.h>
 
 // In this order: what was asked, the smallest failing case, yours against expected with error and tolerance, what is right already,
-// the mistake it looks like, and one next action. has_colour: for a terminal.
-void report_text(const char *root, const Verdict *verdict, FILE *stream, bool has_colour);
+// the mistake it looks like, and one next action.
+void report_text(const char *root, const Verdict *verdict, const Page *page);
 
 // passed, rungs[{name claim passed ran expected actual error tolerance suspicion seed ...}]; owned by the caller.
 json_t *report_json(const char *root, const Verdict *verdict);

@@ -5,6 +5,7 @@
 #include "lab/base/clock.h"
 #include "lab/base/mem.h"
 
+#include <sha256.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
@@ -15,11 +16,26 @@ VerdictOptions verdict_options(bool has_seed, uint64_t seed) {
         o.seeds[o.seed_count++] = seed;
         return o;
     }
-    for (; o.seed_count < RUNG_SEEDS_MAX - 1; o.seed_count++) o.seeds[o.seed_count] = (uint64_t)o.seed_count + 1;
+    for (; o.seed_count < RUNG_SEEDS - 1; o.seed_count++) o.seeds[o.seed_count] = (uint64_t)o.seed_count + 1;
     uint32_t fresh = 0;
     if (getrandom(&fresh, sizeof fresh, 0) < 0) fresh = (uint32_t)(clock_seconds() * 1e6);
     o.seeds[o.seed_count++] = 1000 + fresh % 1000000; // short enough to type
     return o;
+}
+
+void verdict_options_add_key(VerdictOptions *o, const char *key) {
+    for (int i = 0; i < RUNG_SECRET_SEEDS; i++) {
+        uint8_t digest[SHA256_DIGEST_LENGTH];
+        SHA2_CTX hash;
+        SHA256Init(&hash);
+        SHA256Update(&hash, (const uint8_t *)key, strlen(key));
+        SHA256Update(&hash, (const uint8_t *)":seed:", 6);
+        SHA256Update(&hash, &(uint8_t){(uint8_t)i}, 1);
+        SHA256Final(digest, &hash);
+        uint64_t seed = 0;
+        for (int k = 0; k < 6; k++) seed = seed << 8 | digest[k]; // 48 bits: what JSON and doubles hold
+        o->seeds[o->seed_count++] = seed;
+    }
 }
 
 int verdict_first_failed(const Verdict *v) {
@@ -58,7 +74,7 @@ static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *
 bool verdict_of(const char *root, const Exercise *exercise, const char *source, const Ledger *ledger,
                 const VerdictOptions *options, Verdict *v) {
     double began_s = clock_seconds();
-    *v = (Verdict){.exercise = exercise, .pictured = -1, .fresh_seed = options->seeds[options->seed_count - 1]};
+    *v = (Verdict){.exercise = exercise, .pictured = -1, .fresh_seed = options->seeds[options->seed_count - 1], .seed_count = options->seed_count};
     char *calls = exercise_path(root, exercise, "check_calls.c"), *file = exercise_file_name(exercise);
     BuildJob jobs[PRECISION_COUNT];
     Subject *subjects[PRECISION_COUNT] = {NULL};

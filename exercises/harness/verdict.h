@@ -15,6 +15,7 @@ typedef struct {
     char printed[1024]; // what the answer printed
     int pictured;       // index of the rung of which pictures were written (pictures.h), -1: none
     uint64_t fresh_seed;
+    int seed_count;
     double seconds;
 } Verdict;
 
@@ -27,6 +28,9 @@ typedef struct {
 
 // Sixteen fixed seeds and a fresh one; or only `seed` where has_seed.
 VerdictOptions verdict_options(bool has_seed, uint64_t seed);
+
+// Eight more, from an instructor's key: the same for each answer, and nobody without the key can try them beforehand.
+void verdict_options_add_key(VerdictOptions *options, const char *key);
 
 // source: the file that is judged. verdict is large: allocate it. False with a message only when the harness itself could not do
 // its work (no compiler, no worker).

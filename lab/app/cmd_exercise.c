@@ -20,13 +20,14 @@ static const OptionField FIELDS[] = {
     {.name = "key",
      .type = OPTION_TEXT,
      .offset = offsetof(ExerciseOptions, key),
-     .help = "solution: the instructor's key, which opens it before a pass"},
+     .help = "the instructor's key: opens the solution before a pass; run: adds eight secret seeds"},
     {.name = "write-ledger",
      .type = OPTION_FLAG,
      .offset = offsetof(ExerciseOptions, write_ledger),
      .help = "selftest: measure what our solutions miss each claim by, from which the tolerances come"},
     {OPTION_JSON_OF(ExerciseOptions, "the result"), .section = "Output"},
 };
+enum { FIELD_COUNT = sizeof FIELDS / sizeof *FIELDS, WINDOW_FIELDS = 3 }; // of a window: size, frames, screenshot
 
 typedef struct {
     const char *name;
@@ -37,6 +38,8 @@ typedef struct {
 static const Verb VERBS[] = {
     {"list", exercise_list, false, false},
     {"run", exercise_run, true, true},
+    {"watch", exercise_watch, false, true},
+    {"show", exercise_show, true, true},
     {"hint", exercise_hint, true, true},
     {"reset", exercise_reset, true, true},
     {"solution", exercise_solution_show, true, true},
@@ -70,13 +73,17 @@ static bool understand(const char *const *words, int count, const Verb **verb, c
 
 static int cmd_exercise(int argc, char **argv) {
     const ExerciseOptions defaults = {0};
-    const OptionTable table = {FIELDS, sizeof FIELDS / sizeof *FIELDS, &defaults};
+    OptionField window[WINDOW_OPTION_COUNT], fields[FIELD_COUNT + WINDOW_FIELDS];
+    const OptionTable table = {fields, FIELD_COUNT + WINDOW_FIELDS, &defaults};
     ExerciseOptions options = defaults;
     const char *words[2];
     int count, exit_code;
     const Verb *verb;
     const Exercise *exercise;
     char *root;
+    memcpy(fields, FIELDS, sizeof FIELDS);
+    window_options_fields(offsetof(ExerciseOptions, window), window);
+    memcpy(fields + FIELD_COUNT, window, WINDOW_FIELDS * sizeof *fields);
     if (!command_line_parse(&CMD_EXERCISE, &table, argc, argv, &options, words, 2, &count, &exit_code))
         return exit_code;
     if (!understand(words, count, &verb, &exercise) || !exercises_root(&root)) return command_failed();
@@ -92,6 +99,8 @@ const Command CMD_EXERCISE = {
     .details = "N is a number (7), a name (quat) or a folder (07_quat). Actions:\n"
                "  list         all exercises, with what you have reached (the default)\n"
                "  run N        tries your exercises/NN_name/name.c; exit code 0 when all of it holds, else 1\n"
+               "  watch [N]    tries it at each save, one after the other; keys stand below the verdict\n"
+               "  show N       pictures of the last wrong answer: yours, the reference, the difference\n"
                "  hint N       the next of four hints\n"
                "  reset N      back to the beginning; your file is kept beside it\n"
                "  solution N   ours, when yours has passed\n"

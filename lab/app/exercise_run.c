@@ -74,31 +74,33 @@ static bool parse_seed(const ExerciseOptions *o, uint64_t *seed) {
     return fail_usage("exercise: --seed %s: want a whole number, as a failed run prints it", o->seed);
 }
 
-static bool run(const char *root, const Exercise *e, const ExerciseOptions *o, bool *passed) {
+bool exercise_judge(const char *root, const Exercise *e, const ExerciseOptions *o, Verdict *v) {
     uint64_t seed;
     Ledger ledger;
-    if (!parse_seed(o, &seed) || !ledger_load(root, &ledger) || !exercise_lay_out(root, e)) return false;
+    if (!parse_seed(o, &seed) || (o->key[0] && !exercise_key_check(root, o->key))) return false;
+    if (!ledger_load(root, &ledger) || !exercise_lay_out(root, e)) return false;
     VerdictOptions options = verdict_options(o->seed[0] != 0, seed);
+    if (o->key[0]) verdict_options_add_key(&options, o->key);
     options.draws = !o->answer[0];
     char *source = o->answer[0] ? mem_text(o->answer) : exercise_source(root, e);
-    Verdict *v = mem_alloc(1, sizeof *v);
     bool good = verdict_of(root, e, source, &ledger, &options, v) && (o->answer[0] || o->seed[0] || note(root, v));
-    if (good && o->json) {
-        json_t *report = report_json(root, v);
-        json_print(report);
-        json_decref(report);
-    } else if (good) {
-        report_text(root, v, stdout, isatty(STDOUT_FILENO));
-    }
-    *passed = v->passed;
-    verdict_free(v);
-    mem_free(v);
     mem_free(source);
     return good;
 }
 
 int exercise_run(const char *root, const Exercise *e, const ExerciseOptions *o) {
-    bool passed;
-    if (!run(root, e, o, &passed)) return command_failed();
+    Verdict *v = mem_alloc(1, sizeof *v);
+    bool good = exercise_judge(root, e, o, v), passed = v->passed;
+    if (good && o->json) {
+        json_t *report = report_json(root, v);
+        json_print(report);
+        json_decref(report);
+    } else if (good) {
+        Page page = page_for(STDOUT_FILENO, stdout);
+        report_text(root, v, &page);
+    }
+    verdict_free(v);
+    mem_free(v);
+    if (!good) return command_failed();
     return passed ? 0 : 1;
 }
