@@ -71,9 +71,20 @@ static void ssim_photo_row(__global const uint *row, int x, const SsimRecord *s,
     r->after = ssim_photo16(row, x + 16, s, channel);
 }
 
+// The middle part of a row blurred along x; w: weight by distance. Small weights first, so that little is rounded away.
+static float16 ssim_blur_across(const float *w, SsimRow r) {
+    float16 sum = w[5] * (SSIM_TAP_m5(r) + SSIM_TAP_p5(r));
+    sum = fma(w[4], SSIM_TAP_m4(r) + SSIM_TAP_p4(r), sum);
+    sum = fma(w[3], SSIM_TAP_m3(r) + SSIM_TAP_p3(r), sum);
+    sum = fma(w[2], SSIM_TAP_m2(r) + SSIM_TAP_p2(r), sum);
+    sum = fma(w[1], SSIM_TAP_m1(r) + SSIM_TAP_p1(r), sum);
+    return fma(w[0], SSIM_TAP_0(r), sum);
+}
+
 // How far ahead a strip asks for memory: it steps by whole picture rows, wider than a CPU foresees by itself; unasked, half the time
 // would be waiting.
-#define SSIM_ROWS_AHEAD 4
+#define SSIM_ROWS_AHEAD    4
+#define SSIM_COLUMNS_AHEAD 32 // and a band, which walks along many rows at once
 
 // Sum of the lanes, always in this order.
 static float ssim_lane_sum(float16 v) {

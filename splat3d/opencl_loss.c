@@ -1,4 +1,4 @@
-// The host side of kernels/ssim_forward.cl and kernels/ssim_backward.cl. The reference is splat2d/loss.c.
+// The host side of kernels/ssim_cpu.cl, and of kernels/ssim_forward_gpu.cl and kernels/ssim_backward_gpu.cl for a GPU. The reference is splat2d/loss.c.
 
 #include "splat3d/opencl_loss.h"
 
@@ -11,8 +11,9 @@
 
 struct OpenclLoss {
     Gpu *gpu;
-    GpuProgram *forward_program, *backward_program;
-    GpuKernel *forward, *backward;
+    bool is_fused; // the CPU's shape: one kernel; else two, with maps between them
+    GpuProgram *fused_program, *forward_program, *backward_program;
+    GpuKernel *fused, *forward, *backward;
     GpuBuffer *maps, *sums;        // as the kernels say
     float window[SSIM_RADIUS + 1]; // weight by distance
     int items;                     // work-items of the last forward run: rows of sums
@@ -20,21 +21,28 @@ struct OpenclLoss {
     double lambda;                 // of the last run
 };
 
-bool opencl_loss_create(Gpu *gpu, OpenclLoss **loss) {
+static bool create_kernels(OpenclLoss *l) {
+    if (l->is_fused)
+        return gpu_program_create(l->gpu, "ssim_cpu.cl", "", &l->fused_program) &&
+               gpu_kernel(l->fused_program, "ssim_cpu", &l->fused);
+    return gpu_program_create(l->gpu, "ssim_forward_gpu.cl", "", &l->forward_program) &&
+           gpu_program_create(l->gpu, "ssim_backward_gpu.cl", "", &l->backward_program) &&
+           gpu_kernel(l->forward_program, "ssim_forward_gpu", &l->forward) &&
+           gpu_kernel(l->backward_program, "ssim_backward_gpu", &l->backward) &&
+           gpu_buffer_create(l->gpu, "SSIM derivatives", 0, &l->maps);
+}
+
+bool opencl_loss_create(Gpu *gpu, BlendKernels kernels, OpenclLoss **loss) {
     OpenclLoss *l = mem_alloc(1, sizeof *l);
     l->gpu = gpu;
+    l->is_fused = kernels == BLEND_AUTO ? gpu_info(gpu)->is_cpu : kernels == BLEND_CPU;
     double weight[SSIM_RADIUS + 1], sum = 0;
     for (int d = 0; d <= SSIM_RADIUS; d++) {
         weight[d] = exp(-d * d / (2.0 * SSIM_SIGMA * SSIM_SIGMA));
         sum += d ? 2 * weight[d] : weight[d];
     }
     for (int d = 0; d <= SSIM_RADIUS; d++) l->window[d] = (float)(weight[d] / sum);
-    bool good = gpu_program_create(gpu, "ssim_forward.cl", "", &l->forward_program) &&
-                gpu_program_create(gpu, "ssim_backward.cl", "", &l->backward_program) &&
-                gpu_kernel(l->forward_program, "ssim_forward", &l->forward) &&
-                gpu_kernel(l->backward_program, "ssim_backward", &l->backward) &&
-                gpu_buffer_create(gpu, "SSIM derivatives", 0, &l->maps) &&
-                gpu_buffer_create(gpu, "loss sums", 0, &l->sums);
+    bool good = create_kernels(l) && gpu_buffer_create(gpu, "loss sums", 0, &l->sums);
     *loss = good ? l : NULL;
     if (!good) opencl_loss_destroy(l);
     return good;
@@ -44,6 +52,7 @@ void opencl_loss_destroy(OpenclLoss *loss) {
     if (!loss) return;
     gpu_buffer_destroy(loss->maps);
     gpu_buffer_destroy(loss->sums);
+    gpu_program_destroy(loss->fused_program);
     gpu_program_destroy(loss->forward_program);
     gpu_program_destroy(loss->backward_program);
     mem_free(loss);
@@ -82,13 +91,34 @@ static int strips(int width, int height) {
     return 3 * (width / SSIM_STRIP_WIDTH) * ((height + SSIM_STRIP_HEIGHT - 1) / SSIM_STRIP_HEIGHT);
 }
 
+static int bands(int rows) { return 3 * ((rows + SSIM_BAND_HEIGHT - 1) / SSIM_BAND_HEIGHT); }
+
+static bool run_fused(OpenclLoss *loss, const SsimRecord *record, DevicePicture picture, GpuBuffer *photo) {
+    return gpu_launch(loss->fused, gpu_range((size_t)loss->items, 1), gpu_record_arg(record, sizeof *record),
+                      gpu_buffer_arg(picture.rgb), gpu_buffer_arg(photo), gpu_buffer_arg(loss->sums),
+                      gpu_buffer_arg(picture.d_rgb));
+}
+
+static bool run_in_two(OpenclLoss *loss, const SsimRecord *record, DevicePicture picture, GpuBuffer *photo) {
+    size_t map_floats = (size_t)SSIM_MAPS * 3 * (size_t)picture.rows * (size_t)(picture.stride + 2 * SSIM_MARGIN);
+    // A CPU does best with groups of one strip; a GPU has to have a group as wide as its hardware.
+    size_t group = gpu_info(loss->gpu)->is_cpu ? 1 : 32;
+    return gpu_buffer_reserve(loss->maps, map_floats * sizeof(float)) &&
+           gpu_launch(loss->forward, gpu_range((size_t)loss->items, group), gpu_record_arg(record, sizeof *record),
+                      gpu_buffer_arg(picture.rgb), gpu_buffer_arg(photo), gpu_buffer_arg(loss->maps),
+                      gpu_buffer_arg(loss->sums)) &&
+           gpu_launch(loss->backward, gpu_range((size_t)strips(picture.stride, picture.rows), group),
+                      gpu_record_arg(record, sizeof *record), gpu_buffer_arg(picture.rgb), gpu_buffer_arg(photo),
+                      gpu_buffer_arg(loss->maps), gpu_buffer_arg(picture.d_rgb));
+}
+
 bool opencl_loss_run(OpenclLoss *loss, DevicePicture picture, GpuBuffer *photo, const float background[3],
                      float lambda) {
     assert(gpu_buffer_bytes(photo) == 4 * (size_t)picture.stride * (size_t)picture.height);
     assert(picture.stride == padded(picture.width) && picture.rows == padded(picture.height));
     loss->values = 3.0 * picture.width * picture.height;
     loss->lambda = lambda;
-    loss->items = strips(picture.stride, picture.height);
+    loss->items = loss->is_fused ? bands(picture.rows) : strips(picture.stride, picture.height);
     SsimRecord record = {
         .width = picture.width,
         .height = picture.height,
@@ -99,17 +129,8 @@ bool opencl_loss_run(OpenclLoss *loss, DevicePicture picture, GpuBuffer *photo, 
         .ssim_scale = (float)(-loss->lambda / loss->values),
     };
     for (int d = 0; d <= SSIM_RADIUS; d++) record.window[d] = loss->window[d];
-    size_t map_floats = (size_t)SSIM_MAPS * 3 * (size_t)picture.rows * (size_t)(picture.stride + 2 * SSIM_MARGIN);
-    // A CPU does best with groups of one strip; a GPU has to have a group as wide as its hardware.
-    size_t group = gpu_info(loss->gpu)->is_cpu ? 1 : 32;
-    return gpu_buffer_reserve(loss->maps, map_floats * sizeof(float)) &&
-           gpu_buffer_reserve(loss->sums, (size_t)loss->items * SSIM_SUMS * sizeof(float)) &&
-           gpu_launch(loss->forward, gpu_range((size_t)loss->items, group), gpu_record_arg(&record, sizeof record),
-                      gpu_buffer_arg(picture.rgb), gpu_buffer_arg(photo), gpu_buffer_arg(loss->maps),
-                      gpu_buffer_arg(loss->sums)) &&
-           gpu_launch(loss->backward, gpu_range((size_t)strips(picture.stride, picture.rows), group),
-                      gpu_record_arg(&record, sizeof record), gpu_buffer_arg(picture.rgb), gpu_buffer_arg(photo),
-                      gpu_buffer_arg(loss->maps), gpu_buffer_arg(picture.d_rgb));
+    return gpu_buffer_reserve(loss->sums, (size_t)loss->items * SSIM_SUMS * sizeof(float)) &&
+           (loss->is_fused ? run_fused : run_in_two)(loss, &record, picture, photo);
 }
 
 bool opencl_loss_read(OpenclLoss *loss, LossValues *values) {

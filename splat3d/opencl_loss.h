@@ -9,7 +9,8 @@
 
 typedef struct OpenclLoss OpenclLoss;
 
-bool opencl_loss_create(Gpu *gpu, OpenclLoss **loss);
+// kernels: one pass made for CPUs, two made for GPUs, or by the device; the same loss and gradient up to rounding.
+bool opencl_loss_create(Gpu *gpu, BlendKernels kernels, OpenclLoss **loss);
 void opencl_loss_destroy(OpenclLoss *loss); // accepts NULL
 
 // A photograph on the device as RGBA bytes (R lowest, A 255 where the file has none), 4 bytes a pixel, rows padded with zeros to

@@ -59,7 +59,7 @@ static bool upload_views(Trainer *t, Dataset *dataset) {
 
 static bool create_device_side(Trainer *t, BlendKernels blend) {
     int degree = t->options.sh_degree;
-    return opencl_rasterizer_create(t->gpu, blend, &t->rasterizer) && opencl_loss_create(t->gpu, &t->loss) &&
+    return opencl_rasterizer_create(t->gpu, blend, &t->rasterizer) && opencl_loss_create(t->gpu, blend, &t->loss) &&
            opencl_adam_create(t->gpu, &t->adam) && device_gaussians_create(t->gpu, "model", 0, degree, &t->model) &&
            device_gaussians_create(t->gpu, "gradient", 0, degree, &t->gradient) &&
            device_gaussians_create(t->gpu, "first moment", 0, degree, &t->m) &&

@@ -16,7 +16,7 @@ const char *const BENCH_STAGE_NAMES[BENCH_STAGE_COUNT + 1] = {
 
 static const float DSSIM_WEIGHT = 0.2f;
 
-enum { MAPPED = 10 };
+enum { MAPPED = 11 };
 
 struct BenchStages {
     Gpu *gpu;
@@ -49,8 +49,8 @@ static bool create_model(BenchStages *s, const Gaussians *model) {
 
 static bool create_stages(BenchStages *s, BlendKernels blend) {
     const bool is_tile_wise = blend == BLEND_AUTO ? gpu_info(s->gpu)->is_cpu : blend == BLEND_CPU;
-    return opencl_project_create(s->gpu, &s->project) && opencl_binning_create(s->gpu, &s->binning) &&
-           opencl_blend_create(s->gpu, is_tile_wise, &s->blend) && opencl_loss_create(s->gpu, &s->loss) &&
+    return opencl_project_create(s->gpu, is_tile_wise, &s->project) && opencl_binning_create(s->gpu, &s->binning) &&
+           opencl_blend_create(s->gpu, is_tile_wise, &s->blend) && opencl_loss_create(s->gpu, blend, &s->loss) &&
            opencl_adam_create(s->gpu, &s->adam) && opencl_rasterizer_create(s->gpu, blend, &s->rasterizer);
 }
 
@@ -153,12 +153,11 @@ size_t bench_stages_bytes(const BenchStages *s, BenchStage stage) {
                  learned = sizeof(float) * (size_t)gaussians_floats_per_splat(s->model.sh_degree);
     const size_t pixels = (size_t)s->frame.stride * (size_t)s->frame.rows;
     const size_t screen = sizeof(ScreenSplat) + sizeof(TileBox);
-    const size_t maps = 2 * 9 * sizeof(float); // the loss writes and reads 3 a channel
     switch (stage) {
     case BENCH_PROJECT:
         return n * (learned + screen + sizeof(float));
-    case BENCH_LOSS: // both passes read picture and photograph
-        return pixels * (2 * (3 * sizeof(float) + 4) + maps + 3 * sizeof(float));
+    case BENCH_LOSS: // picture, photograph, gradient
+        return pixels * (3 * sizeof(float) + 4 + 3 * sizeof(float));
     case BENCH_PROJECT_BACKWARD:
         return n * (2 * learned + screen + sizeof(int)) + (size_t)s->binning.pairs * sizeof(PairGradient) +
                (size_t)s->binning.slots * sizeof(uint16_t);
@@ -233,6 +232,7 @@ bool bench_stages_map(BenchStages *s, NativeBlend *blend) {
         .rgb = map(s, s->blend.rgb, &done),
         .d_rgb = map(s, s->blend.d_rgb, &done),
         .records = map(s, s->blend.records, &done),
+        .mask_of_slot = map(s, s->binning.mask, &done),
     };
     return done;
 }

@@ -15,19 +15,21 @@ enum { SEED = 20240607 };
 
 static struct {
     Gpu *gpu;
-    OpenclLoss *loss;
+    OpenclLoss *shape[2]; // BLEND_CPU, BLEND_GPU
+    OpenclLoss *loss;     // the one under test
 } at;
 
 static int set_up(void **state) {
     (void)state;
-    bool good = gpu_open("", &at.gpu) && opencl_loss_create(at.gpu, &at.loss);
+    bool good = gpu_open("", &at.gpu) && opencl_loss_create(at.gpu, BLEND_CPU, &at.shape[0]) &&
+                opencl_loss_create(at.gpu, BLEND_GPU, &at.shape[1]);
     if (!good) print_message("%s\n", fail_text());
     return good ? 0 : -1;
 }
 
 static int tear_down(void **state) {
     (void)state;
-    opencl_loss_destroy(at.loss);
+    for (int i = 0; i < 2; i++) opencl_loss_destroy(at.shape[i]);
     gpu_close(at.gpu);
     return 0;
 }
@@ -258,16 +260,31 @@ static void two_runs_give_the_same_bits(void **state) {
     case_destroy(&c);
 }
 
+static int cpu_shape(void **state) {
+    (void)state;
+    at.loss = at.shape[0];
+    return 0;
+}
+
+static int gpu_shape(void **state) {
+    (void)state;
+    at.loss = at.shape[1];
+    return 0;
+}
+
+#define BOTH_SHAPES(test)                                                                                              \
+    {"CPU's kernel: " #test, test, cpu_shape, NULL, NULL}, { "GPU's kernels: " #test, test, gpu_shape, NULL, NULL }
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_of_every_size_gives_the_references_loss_and_gradient),
-        cmocka_unit_test(a_photo_with_alpha_is_laid_over_the_background),
-        cmocka_unit_test(a_grey_photo_counts_as_three_equal_channels),
-        cmocka_unit_test(flat_areas_and_faint_slopes_keep_their_gradient),
-        cmocka_unit_test(an_identical_picture_has_loss_zero),
-        cmocka_unit_test(lambda_0_and_1_give_l1_and_ssim_alone),
-        cmocka_unit_test(a_smaller_picture_after_a_larger_one_sees_nothing_of_it),
-        cmocka_unit_test(two_runs_give_the_same_bits),
+        BOTH_SHAPES(noise_of_every_size_gives_the_references_loss_and_gradient),
+        BOTH_SHAPES(a_photo_with_alpha_is_laid_over_the_background),
+        BOTH_SHAPES(a_grey_photo_counts_as_three_equal_channels),
+        BOTH_SHAPES(flat_areas_and_faint_slopes_keep_their_gradient),
+        BOTH_SHAPES(an_identical_picture_has_loss_zero),
+        BOTH_SHAPES(lambda_0_and_1_give_l1_and_ssim_alone),
+        BOTH_SHAPES(a_smaller_picture_after_a_larger_one_sees_nothing_of_it),
+        BOTH_SHAPES(two_runs_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

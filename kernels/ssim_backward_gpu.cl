@@ -1,15 +1,16 @@
-// ssim_backward.cl - gradient of (1 - lambda) L1 + lambda (1 - SSIM) by the picture.
+// ssim_backward_gpu.cl - gradient of (1 - lambda) L1 + lambda (1 - SSIM) by the picture, for GPUs.
 //
 //     d loss / d x = l1_scale sign(x - y) + ssim_scale (w * a + 2 x (w * b) + y (w * c))
-// with a, b, c the maps that ssim_forward.cl left (derivatives of SSIM by w * x, w * x^2, w * (x y)), and x, y
+// with a, b, c the maps that ssim_forward_gpu.cl left (derivatives of SSIM by w * x, w * x^2, w * (x y)), and x, y
 // beside b and c less SSIM_SHIFT as there. The picture is not clipped. (splat2d/loss.c, the C reference, derives it.)
 //
 //     picture (3, rows, stride), photo (height, stride) RGBA bytes, maps (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN)
 //     d_picture (3, rows, stride): written everywhere, 0 right of width and below height
 //
-// One work-item: a strip of 16 columns and SSIM_STRIP_HEIGHT rows of one channel, as in ssim_forward.cl, with the same ring of
+// One work-item: a strip of 16 columns and SSIM_STRIP_HEIGHT rows of one channel, as in ssim_forward_gpu.cl, with the same ring of
 // blurred rows; strips cover all rows of the plane here. Local memory: none; 4 KB of private array.
 // Test: tests/splat3d/test_opencl_loss.c.
+#include "ssim_formula.h"
 #include "ssim_row.h"
 
 enum { TAPS = 2 * SSIM_RADIUS + 1 };
@@ -22,12 +23,7 @@ typedef struct {
 static float16 blur_row(const float *w, __global const float *at) {
     __global const float16 *vectors = (__global const float16 *)at;
     const SsimRow r = {vectors[-1], vectors[0], vectors[1]};
-    float16 sum = w[0] * SSIM_TAP_0(r);
-    sum = fma(w[1], SSIM_TAP_m1(r) + SSIM_TAP_p1(r), sum);
-    sum = fma(w[2], SSIM_TAP_m2(r) + SSIM_TAP_p2(r), sum);
-    sum = fma(w[3], SSIM_TAP_m3(r) + SSIM_TAP_p3(r), sum);
-    sum = fma(w[4], SSIM_TAP_m4(r) + SSIM_TAP_p4(r), sum);
-    return fma(w[5], SSIM_TAP_m5(r) + SSIM_TAP_p5(r), sum);
+    return ssim_blur_across(w, r);
 }
 
 static float16 blur_column(const float *w, const MapRow *rows, int map) {
@@ -42,14 +38,11 @@ static float16 gradient16(const SsimRecord *s, const MapRow *rows, float16 x, fl
     const float16 a = blur_column(s->window, rows, 0);
     const float16 b = blur_column(s->window, rows, 1);
     const float16 c = blur_column(s->window, rows, 2);
-    const float16 d_ssim = fma(2.0f * (x - SSIM_SHIFT), b, fma(y - SSIM_SHIFT, c, a));
-    const float16 zero = (float16)(0.0f);
-    const float16 d_absolute = select(select(zero, zero - 1.0f, x < y), zero + 1.0f, x > y);
-    return fma(s->ssim_scale, d_ssim, s->l1_scale * d_absolute);
+    return ssim_gradient(s, a, b, c, x, y);
 }
 
-__kernel void ssim_backward(const SsimRecord s, __global const float *picture, __global const uint *photo,
-                            __global const float *maps, __global float *d_picture) {
+__kernel void ssim_backward_gpu(const SsimRecord s, __global const float *picture, __global const uint *photo,
+                                __global const float *maps, __global float *d_picture) {
     const int strips_x = s.stride / SSIM_STRIP_WIDTH;
     const int strips_y = (s.rows + SSIM_STRIP_HEIGHT - 1) / SSIM_STRIP_HEIGHT;
     const int item = (int)get_global_id(0);

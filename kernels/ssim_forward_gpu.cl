@@ -1,9 +1,9 @@
-// ssim_forward.cl - SSIM of picture x and photo y with its derivatives, and the sums of all parts of the loss.
+// ssim_forward_gpu.cl - SSIM of picture x and photo y with its derivatives, and the sums of all parts of the loss, for GPUs.
 //
 //     SSIM = (2 mx my + C1) (2 cov + C2) / ((mx^2 + my^2 + C1) (vx + vy + C2))          (Wang et al. 2004, eq. 13)
 //     mx = w * x,  vx = w * x^2 - mx^2,  cov = w * (x y) - mx my;   w: Gaussian, 11 x 11, zero padded
 // per channel; then the derivatives of SSIM by mx (in which vx and cov follow), w * x^2 and w * (x y), which
-// ssim_backward.cl blurs again. Formulas: splat2d/loss.c (the C reference).
+// ssim_backward_gpu.cl blurs again. Formulas: splat2d/loss.c (the C reference).
 //
 //     picture (3, rows, stride): planes r g b; what lies right of width and below height is not read
 //     photo   (height, stride): R G B A bytes, R lowest
@@ -18,13 +18,10 @@
 //                 [ s ... s + 10 ]               the 11 rows that end with r begin at s = r % 11 + 1
 // Sixteen lanes are written out because CPU compilers do not vectorise such a loop over work-items by themselves.
 // Local memory: none; 6 KB of private array. Test: tests/splat3d/test_opencl_loss.c.
+#include "ssim_formula.h"
 #include "ssim_row.h"
 
 enum { TAPS = 2 * SSIM_RADIUS + 1 };
-
-typedef struct {
-    float16 x, y, squares, xy; // blurred: picture, photo (less SSIM_SHIFT), the sum of their squares, their product
-} Moments;
 
 // Weighted by a distance from the window's centre, added to *sum.
 static void add_tap(Moments *sum, float weight, float16 x, float16 y) {
@@ -61,21 +58,6 @@ static void blur_column(const float *w, const Moments *rows, Moments *out) {
     *out = sum;
 }
 
-// SSIM, and its derivatives by the three blurred planes that depend on the picture.
-static float16 ssim_at(Moments m, float16 *d_x, float16 *d_xx, float16 *d_xy) {
-    const float16 mx = m.x + SSIM_SHIFT, my = m.y + SSIM_SHIFT; // the true means; variances take the shifted ones
-    const float16 light = fma(2.0f * mx, my, (float16)(SSIM_C1));
-    const float16 structure = fma((float16)(2.0f), fma(-m.x, m.y, m.xy), (float16)(SSIM_C2));
-    const float16 over_light = 1.0f / fma(mx, mx, fma(my, my, (float16)(SSIM_C1)));
-    const float16 over_structure = 1.0f / (fma(-m.x, m.x, fma(-m.y, m.y, m.squares)) + SSIM_C2);
-    const float16 d_light = structure * over_light * over_structure;
-    const float16 ssim = light * d_light;
-    *d_xx = -ssim * over_structure;
-    *d_xy = 2.0f * light * over_light * over_structure;
-    *d_x = 2.0f * (my * d_light - mx * ssim * over_light) - 2.0f * m.x * *d_xx - m.y * *d_xy;
-    return ssim;
-}
-
 // One row of the three maps; strips at the left and right edge also clear the margin beside them.
 static void store_maps(const SsimRecord *s, __global float *maps, int x, int y, int channel, float16 d_x, float16 d_xx,
                        float16 d_xy) {
@@ -89,8 +71,8 @@ static void store_maps(const SsimRecord *s, __global float *maps, int x, int y, 
     }
 }
 
-__kernel void ssim_forward(const SsimRecord s, __global const float *picture, __global const uint *photo,
-                           __global float *maps, __global float *sums) {
+__kernel void ssim_forward_gpu(const SsimRecord s, __global const float *picture, __global const uint *photo,
+                               __global float *maps, __global float *sums) {
     const int strips_x = s.stride / SSIM_STRIP_WIDTH;
     const int strips_y = (s.height + SSIM_STRIP_HEIGHT - 1) / SSIM_STRIP_HEIGHT;
     const int item = (int)get_global_id(0);
