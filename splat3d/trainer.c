@@ -12,6 +12,15 @@
 #include <math.h>
 #include <string.h>
 
+enum { COARSE_LEAST_PX = 32 }; // no side of a picture is halved below this
+
+// A training view at one size.
+typedef struct {
+    Camera camera;
+    GpuBuffer *photo; // RGBA bytes on the device
+    int shrink;       // 1, 2, 4, ... times smaller than the view
+} Shot;
+
 struct Trainer {
     TrainOptions options;
     float background[3];
@@ -22,7 +31,8 @@ struct Trainer {
     // The training views, by index 0..view_count-1.
     int view_count;
     const View **views; // borrowed from the data set
-    GpuBuffer **photos; // RGBA bytes on the device
+    int level_count;    // sizes of each view: 1 + coarse_levels
+    Shot *shots;        // (view_count, level_count), level 0 the full size; one that would be too small has no photo
     int *view_order;    // of the current epoch
     int epoch;
 
@@ -39,20 +49,53 @@ struct Trainer {
     uint32_t next_id;
 };
 
+static Shot *shots_of(const Trainer *t, int view) { return t->shots + (size_t)view * (size_t)t->level_count; }
+
+// The view at all its sizes.
+static bool upload_view(Trainer *t, const View *view, Shot *shots) {
+    const Camera *full = &view->camera;
+    int shorter = full->width < full->height ? full->width : full->height;
+    Image8 small = {0}; // of the level before, from the second on
+    bool done = true;
+    for (int level = 0; done && level < t->level_count && (level == 0 || shorter >> level >= COARSE_LEAST_PX);
+         level++) {
+        const Image8 *image = &view->image;
+        if (level > 0) {
+            Image8 half = image8_downscale(small.bytes ? &small : image, 2);
+            image8_destroy(&small);
+            small = half;
+            image = &small;
+        }
+        shots[level] = (Shot){.camera = camera_shrunk(full, 1 << level), .shrink = 1 << level};
+        done = opencl_photo_create(t->gpu, image, &shots[level].photo);
+    }
+    image8_destroy(&small);
+    return done;
+}
+
+// The view as that step sees it.
+static const Shot *shot_of(const Trainer *t, int step, int view) {
+    const Shot *shots = shots_of(t, view);
+    int level = schedule_coarse_level(&t->options, step);
+    while (!shots[level].photo) level--;
+    return &shots[level];
+}
+
 static bool upload_views(Trainer *t, Dataset *dataset) {
     t->view_count = dataset_train_count(dataset);
     if (t->view_count == 0)
         return fail("%s: no view is left to train on; all %d are held out", dataset->path, dataset->view_count);
     t->views = mem_alloc((size_t)t->view_count, sizeof *t->views);
-    t->photos = mem_alloc((size_t)t->view_count, sizeof *t->photos);
+    t->level_count = 1 + t->options.coarse_levels;
+    t->shots = mem_alloc((size_t)t->view_count * (size_t)t->level_count, sizeof *t->shots);
     t->view_order = mem_alloc((size_t)t->view_count, sizeof *t->view_order);
     t->epoch = -1;
     for (int i = 0, n = 0; i < dataset->view_count; i++) {
         View *view = &dataset->views[i];
         if (view->held_out) continue;
-        if (!opencl_photo_create(t->gpu, &view->image, &t->photos[n])) return fail_context("%s", view->path);
+        t->views[n] = view;
+        if (!upload_view(t, view, shots_of(t, n++))) return fail_context("%s", view->path);
         image8_destroy(&view->image);
-        t->views[n++] = view;
     }
     return true;
 }
@@ -100,9 +143,9 @@ bool trainer_create(Gpu *gpu, BlendKernels blend, const TrainOptions *options, D
 
 void trainer_destroy(Trainer *t) {
     if (!t) return;
-    for (int i = 0; t->photos && i < t->view_count; i++) gpu_buffer_destroy(t->photos[i]);
+    for (int i = 0; t->shots && i < t->view_count * t->level_count; i++) gpu_buffer_destroy(t->shots[i].photo);
     mem_free(t->views);
-    mem_free(t->photos);
+    mem_free(t->shots);
     mem_free(t->view_order);
     mem_free(t->id);
     gpu_buffer_destroy(t->statistics.gradient_ndc);
@@ -189,11 +232,13 @@ static bool descend(Trainer *t, int step, int view, StepReport *report) {
     float rate[FIELD_COUNT];
     schedule_learning_rates(&t->options, step, t->dataset->extent, rate);
     DensityStatistics *statistics = schedule_density_is_on(&t->options, step) ? &t->statistics : NULL;
+    const Shot *shot = shot_of(t, step, view);
     int splat;
     GaussianFieldId field;
-    bool done = opencl_render(t->rasterizer, &t->model, &t->views[view]->camera, &settings);
+    report->shrink = shot->shrink;
+    bool done = opencl_render(t->rasterizer, &t->model, &shot->camera, &settings);
     gpu_stage(t->gpu, "loss");
-    done = done && opencl_loss_run(t->loss, opencl_picture(t->rasterizer), t->photos[view], settings.background,
+    done = done && opencl_loss_run(t->loss, opencl_picture(t->rasterizer), shot->photo, settings.background,
                                    (float)t->options.dssim_weight);
     done = done && opencl_backward(t->rasterizer, &t->model, &t->gradient, statistics);
     gpu_stage(t->gpu, "adam");

@@ -22,8 +22,9 @@ void trainer_destroy(Trainer *trainer); // accepts NULL
 typedef struct {
     int step;         // the one just done; 1 is the first
     const char *view; // that it saw
+    int shrink;       // at 1/shrink of its size: 1, 2, 4, ... (schedule_coarse_level)
     LossValues loss;  // before the step
-    double psnr;      // of that view, dB
+    double psnr;      // of that view, at that size, dB
     int splats;       // after the step
     FrameCounts frame;
     DensityChange density; // zero unless density control ran
