@@ -190,6 +190,8 @@ bool trainer_get_state(const Trainer *t, TrainingState *state) {
     return done;
 }
 
+bool trainer_get_model(const Trainer *t, Gaussians *model) { return device_gaussians_read(&t->model, model); }
+
 bool trainer_set_state(Trainer *t, const TrainingState *s) {
     size_t n = (size_t)s->model.count;
     if (s->scene != t->scene)
@@ -264,6 +266,8 @@ static bool adapt(Trainer *t, int step, StepReport *report) {
     report->opacity_reset = schedule_reset_is_due(&t->options, step, white);
     if (!control && !report->opacity_reset) return true;
     TrainingState state;
+    gpu_stage(t->gpu, "density");
+    double began = clock_seconds();
     if (!trainer_get_state(t, &state)) return false;
     if (control)
         report->density =
@@ -275,6 +279,7 @@ static bool adapt(Trainer *t, int step, StepReport *report) {
     else
         fail("step %d: density control would remove every splat; lower --prune-opacity, or check the cameras", step);
     training_state_destroy(&state);
+    gpu_stage_host(t->gpu, 1e3 * (clock_seconds() - began));
     return done;
 }
 
@@ -289,6 +294,7 @@ bool trainer_step(Trainer *t, StepReport *report) {
     t->steps_done = step;
     if (!adapt(t, step, report)) return false;
     report->splats = t->model.count;
-    t->seconds += clock_seconds() - began;
+    report->seconds = clock_seconds() - began;
+    t->seconds += report->seconds;
     return true;
 }
