@@ -19,6 +19,7 @@ typedef struct {
     int downscale;                 // pictures are used at 1/downscale of their size
     int coarse_levels;   // training begins with pictures at 1/2^coarse_levels of their size; 0: full size at once
     double coarse_until; // share of the run until the last halving is undone
+    int coarse_least;    // px; no side of a picture is halved below this
     char background[OPTION_TEXT_BYTES]; // "white", "black", "random" or "r,g,b" in [0, 1]
     int max_splats;                     // density control stops growing there
     int sh_degree;                      // 0..3, reached by one degree every sh_every iterations

@@ -12,8 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { COARSE_LEAST_PX = 32 }; // no side of a picture is halved below this
-
 // A training view at one size.
 typedef struct {
     Camera camera;
@@ -51,23 +49,18 @@ struct Trainer {
 
 static Shot *shots_of(const Trainer *t, int view) { return t->shots + (size_t)view * (size_t)t->level_count; }
 
-// The view at all its sizes.
+// The view at all its sizes: each the half of the one before, as long as it is large enough.
 static bool upload_view(Trainer *t, const View *view, Shot *shots) {
-    const Camera *full = &view->camera;
-    int shorter = full->width < full->height ? full->width : full->height;
-    Image8 small = {0}; // of the level before, from the second on
-    bool done = true;
-    for (int level = 0; done && level < t->level_count && (level == 0 || shorter >> level >= COARSE_LEAST_PX);
-         level++) {
-        const Image8 *image = &view->image;
-        if (level > 0) {
-            Image8 half = image8_downscale(small.bytes ? &small : image, 2);
-            image8_destroy(&small);
-            small = half;
-            image = &small;
-        }
-        shots[level] = (Shot){.camera = camera_shrunk(full, 1 << level), .shrink = 1 << level};
-        done = opencl_photo_create(t->gpu, image, &shots[level].photo);
+    int shorter = view->camera.width < view->camera.height ? view->camera.width : view->camera.height;
+    shots[0] = (Shot){.camera = view->camera, .shrink = 1};
+    bool done = opencl_photo_create(t->gpu, &view->image, &shots[0].photo);
+    Image8 small = {0};
+    for (int level = 1; done && level < t->level_count && shorter >> level >= t->options.coarse_least; level++) {
+        Image8 half = image8_downscale(level == 1 ? &view->image : &small, 2);
+        image8_destroy(&small);
+        small = half;
+        shots[level] = (Shot){.camera = camera_shrunk(&view->camera, 1 << level), .shrink = 1 << level};
+        done = opencl_photo_create(t->gpu, &small, &shots[level].photo);
     }
     image8_destroy(&small);
     return done;
