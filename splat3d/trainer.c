@@ -49,13 +49,13 @@ struct Trainer {
 
 static Shot *shots_of(const Trainer *t, int view) { return t->shots + (size_t)view * (size_t)t->level_count; }
 
-// The view at all its sizes: each the half of the one before, as long as it is large enough.
+// The view at all its sizes: each the half of the one before.
 static bool upload_view(Trainer *t, const View *view, Shot *shots) {
-    int shorter = view->camera.width < view->camera.height ? view->camera.width : view->camera.height;
+    int sizes = schedule_sizes(&t->options, view->camera.width, view->camera.height);
     shots[0] = (Shot){.camera = view->camera, .shrink = 1};
     bool done = opencl_photo_create(t->gpu, &view->image, &shots[0].photo);
     Image8 small = {0};
-    for (int level = 1; done && level < t->level_count && shorter >> level >= t->options.coarse_least; level++) {
+    for (int level = 1; done && level < sizes; level++) {
         Image8 half = image8_downscale(level == 1 ? &view->image : &small, 2);
         image8_destroy(&small);
         small = half;

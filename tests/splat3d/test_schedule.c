@@ -122,6 +122,17 @@ static void pictures_grow_in_equal_parts_until_coarse_until_and_are_whole_from_t
     assert_int_equal(schedule_coarse_level(&o, 1), 0);
 }
 
+static void pictures_are_halved_as_long_as_their_sides_allow(void **state) {
+    (void)state;
+    TrainOptions o = published();
+    o.coarse_levels = 2, o.coarse_least = 100;
+    assert_int_equal(schedule_sizes(&o, 640, 426), 3);
+    assert_int_equal(schedule_sizes(&o, 399, 640), 2);
+    assert_int_equal(schedule_sizes(&o, 640, 199), 1);
+    o.coarse_levels = 0;
+    assert_int_equal(schedule_sizes(&o, 640, 426), 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(density_control_runs_from_600_to_14900_every_100),
@@ -130,6 +141,7 @@ int main(void) {
         cmocka_unit_test(one_sh_degree_more_every_1000_steps),
         cmocka_unit_test(every_epoch_sees_every_view_once_in_another_order),
         cmocka_unit_test(pictures_grow_in_equal_parts_until_coarse_until_and_are_whole_from_there),
+        cmocka_unit_test(pictures_are_halved_as_long_as_their_sides_allow),
         cmocka_unit_test(a_resumed_run_sees_the_views_of_an_uninterrupted_one),
     };
     return cmocka_run_group_tests_name("schedule", tests, NULL, NULL);
