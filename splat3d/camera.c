@@ -4,6 +4,7 @@
 #include "lab/base/fail.h"
 #include "lab/io/json_io.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -61,6 +62,17 @@ Camera camera_resized(const Camera *camera, int width, int height) {
     out.fy *= scale_y;
     out.cy *= scale_y;
     return out;
+}
+
+// What k pixels do not fill is cut off right and below: the principal point stays where it is, and then all intrinsics shrink
+// by exactly k.
+Camera camera_shrunk(const Camera *camera, int k) {
+    Camera cut = *camera;
+    int width = camera->width / k, height = camera->height / k;
+    assert(k >= 1 && width >= 1 && height >= 1);
+    cut.width = width * k;
+    cut.height = height * k;
+    return camera_resized(&cut, width, height);
 }
 
 // ---- poses ----

@@ -32,6 +32,10 @@ Camera camera_look_at(Vec3 eye, Vec3 target, Vec3 up, double fov_x_rad, int widt
 // The same camera with pictures of another size: intrinsics scaled by width / old width and height / old height.
 Camera camera_resized(const Camera *camera, int width, int height);
 
+// The same camera with pictures of 1/k of the size, width / k and height / k rounded down (neither to 0): the camera of what
+// image8_downscale() makes.
+Camera camera_shrunk(const Camera *camera, int k);
+
 // Sets the pose from a camera-to-world matrix (row-major 4x4) in OpenGL axes (x right, y up, z back), as Blender and nerfstudio
 // write it, and back. Fails when its 3x3 part is no rotation (a uniform scale is divided out); `where` names the object.
 bool camera_pose_from_opengl(const double camera_to_world[16], Camera *camera, const char *where);

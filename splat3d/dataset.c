@@ -99,19 +99,14 @@ static bool read_scene(const char *path, Dataset *dataset) {
     return fail_unknown(path);
 }
 
-// image8_downscale() cuts off the remainder right and below: the principal point stays where it is, and then all
-// intrinsics shrink by exactly k.
 static bool downscale(Dataset *dataset, int k) {
     dataset->downscale = k;
     for (int i = 0; i < dataset->view_count; i++) {
         Camera *camera = &dataset->views[i].camera;
-        int width = camera->width / k, height = camera->height / k;
-        if (width < 1 || height < 1)
+        if (camera->width < k || camera->height < k)
             return fail("cannot downscale %s by %d: it has only %d x %d px; choose a smaller number",
                         dataset->views[i].path, k, camera->width, camera->height);
-        camera->width = width * k;
-        camera->height = height * k;
-        *camera = camera_resized(camera, width, height);
+        *camera = camera_shrunk(camera, k);
     }
     return true;
 }

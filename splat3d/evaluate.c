@@ -3,6 +3,7 @@
 
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
+#include "lab/base/parallel.h"
 #include "lab/base/progress.h"
 #include "splat2d/loss.h"
 
@@ -15,7 +16,7 @@ const char *const EVALUATION_PROTOCOL =
     "with "
     "an 11x11 Gaussian window, sigma 1.5, zero padded, per channel; means are over views";
 
-enum { ERROR_GAIN = 4, SHEET_GAP_PX = 4 };
+enum { ERROR_GAIN = 4, SHEET_GAP_PX = 4, SCORED_AT_ONCE_MAX = 16 };
 
 // Indices of the views to look at: those held out, or all when there is none. Owned by the caller.
 static int *list_views(const Dataset *dataset, int *count) {
@@ -41,20 +42,26 @@ static void clip(ImageF *image) {
     for (size_t i = 0; i < count; i++) image->values[i] = fminf(fmaxf(image->values[i], 0), 1);
 }
 
-// The photograph of a view and what the model shows there, clipped to [0, 1]; both (H, W, 3), owned by the caller.
-static bool show_view(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset, const View *view,
-                      const RenderSettings *settings, ImageF *photo, ImageF *render) {
+// What the model shows there, clipped to [0, 1]: (H, W, 3), owned by the caller.
+static bool render_view(Rasterizer *rasterizer, const Gaussians *model, const View *view,
+                        const RenderSettings *settings, ImageF *render) {
     Picture picture;
-    if (!load_photo(dataset, view, settings->background, photo)) return false;
-    if (!rasterizer_render(rasterizer, model, &view->camera, settings, &picture)) {
-        imagef_destroy(photo);
+    if (!rasterizer_render(rasterizer, model, &view->camera, settings, &picture))
         return fail_context("view %s", view->name);
-    }
     *render = picture.rgb;
     picture.rgb = (ImageF){0}; // the caller's now
     picture_destroy(&picture);
     clip(render);
     return true;
+}
+
+// The photograph of a view and what the model shows there, both owned by the caller.
+static bool show_view(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset, const View *view,
+                      const RenderSettings *settings, ImageF *photo, ImageF *render) {
+    if (!load_photo(dataset, view, settings->background, photo)) return false;
+    if (render_view(rasterizer, model, view, settings, render)) return true;
+    imagef_destroy(photo);
+    return false;
 }
 
 static ViewScore score_view(const char *name, const ImageF *photo, const ImageF *render) {
@@ -77,24 +84,59 @@ static void take_means(Evaluation *e) {
     }
 }
 
+// Some views that are read and compared at the same time, one a thread; they are rendered one after the other.
+typedef struct {
+    const Dataset *dataset;
+    const float *background;
+    int count;
+    const View *views[SCORED_AT_ONCE_MAX];
+    ImageF renders[SCORED_AT_ONCE_MAX];
+    ViewScore scores[SCORED_AT_ONCE_MAX];
+} Batch;
+
+static bool score_one(void *context, int index) {
+    Batch *batch = context;
+    const View *view = batch->views[index];
+    ImageF photo;
+    if (!load_photo(batch->dataset, view, batch->background, &photo)) return false;
+    batch->scores[index] = score_view(view->name, &photo, &batch->renders[index]);
+    imagef_destroy(&photo);
+    return true;
+}
+
+// The next views from indices (count) on, as many as there are threads.
+static bool score_batch(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
+                        const RenderSettings *settings, const int *indices, int count, Evaluation *evaluation) {
+    Batch batch = {.dataset = dataset, .background = settings->background};
+    int threads = parallel_threads(), most = threads < SCORED_AT_ONCE_MAX ? threads : SCORED_AT_ONCE_MAX;
+    bool good = true;
+    while (good && batch.count < most && batch.count < count) {
+        batch.views[batch.count] = &dataset->views[indices[batch.count]];
+        good = render_view(rasterizer, model, batch.views[batch.count], settings, &batch.renders[batch.count]);
+        batch.count += good;
+    }
+    good = good && parallel_try(batch.count, score_one, &batch);
+    for (int i = 0; i < batch.count; i++) {
+        if (good) evaluation->views[evaluation->count++] = batch.scores[i];
+        imagef_destroy(&batch.renders[i]);
+    }
+    return good;
+}
+
 bool evaluate_model(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
                     const RenderSettings *settings, bool show_progress, Evaluation *evaluation) {
     int count;
     int *indices = list_views(dataset, &count);
     *evaluation = (Evaluation){.views = mem_alloc((size_t)count, sizeof(ViewScore))};
     Progress progress = progress_begin("evaluate", 0, count);
-    bool good = true;
+    bool good = rasterizer_hold(rasterizer, model);
     while (good && evaluation->count < count) {
-        const View *view = &dataset->views[indices[evaluation->count]];
-        ImageF photo, render;
-        good = show_view(rasterizer, model, dataset, view, settings, &photo, &render);
-        if (!good) break;
-        evaluation->views[evaluation->count++] = score_view(view->name, &photo, &render);
-        imagef_destroy(&photo);
-        imagef_destroy(&render);
-        if (show_progress) progress_update(&progress, evaluation->count, NULL);
+        int done = evaluation->count;
+        good = score_batch(rasterizer, model, dataset, settings, indices + done, count - done, evaluation);
+        if (good && show_progress) progress_update(&progress, evaluation->count, NULL);
     }
     if (show_progress) progress_end(&progress, NULL);
+    rasterizer_hold(rasterizer, NULL);
     mem_free(indices);
     if (good)
         take_means(evaluation);

@@ -21,6 +21,7 @@ struct OpenclRasterizer {
 
     // Copies for the interface, which takes models of the host; created when first used.
     DeviceGaussians model, gradient;
+    const Gaussians *held; // what `model` is a copy of, by rasterizer_hold(); borrowed, never looked into
 };
 
 bool opencl_render(OpenclRasterizer *r, const DeviceGaussians *model, const Camera *camera,
@@ -98,6 +99,8 @@ bool opencl_read_picture(OpenclRasterizer *r, Picture *picture) {
 
 // Puts a model of the host on the device.
 static bool take_model(OpenclRasterizer *r, const Gaussians *model) {
+    if (r->held == model) return true;
+    r->held = NULL;
     if (!r->model.field[FIELD_MEAN] || r->model.sh_degree != model->sh_degree) {
         device_gaussians_destroy(&r->model);
         device_gaussians_destroy(&r->gradient);
@@ -112,6 +115,15 @@ static bool table_render(Rasterizer *self, const Gaussians *model, const Camera 
                          Picture *picture) {
     OpenclRasterizer *r = (OpenclRasterizer *)self;
     return take_model(r, model) && opencl_render(r, &r->model, camera, settings) && opencl_read_picture(r, picture);
+}
+
+static bool table_hold(Rasterizer *self, const Gaussians *model) {
+    OpenclRasterizer *r = (OpenclRasterizer *)self;
+    r->held = NULL;
+    if (!model) return true;
+    if (!take_model(r, model)) return false;
+    r->held = model;
+    return true;
 }
 
 static bool write_d_rgb(OpenclRasterizer *r, const ImageF *d_rgb) {
@@ -146,7 +158,7 @@ static bool table_backward(Rasterizer *self, const Gaussians *model, const Camer
 
 static void table_destroy(Rasterizer *self) { opencl_rasterizer_destroy((OpenclRasterizer *)self); }
 
-static const RasterizerApi OPENCL_API = {"opencl", table_render, table_backward, table_destroy};
+static const RasterizerApi OPENCL_API = {"opencl", table_render, table_backward, table_hold, table_destroy};
 
 bool opencl_rasterizer_create(Gpu *gpu, BlendKernels blend, OpenclRasterizer **rasterizer) {
     OpenclRasterizer *r = mem_alloc(1, sizeof *r);

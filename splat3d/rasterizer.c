@@ -28,6 +28,8 @@ bool rasterizer_backward(Rasterizer *r, const Gaussians *model, const Camera *ca
     return r->api->backward(r, model, camera, settings, d_rgb, d_model);
 }
 
+bool rasterizer_hold(Rasterizer *r, const Gaussians *model) { return !r->api->hold || r->api->hold(r, model); }
+
 void rasterizer_destroy(Rasterizer *r) {
     if (r) r->api->destroy(r);
 }

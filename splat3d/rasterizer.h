@@ -46,6 +46,8 @@ typedef struct {
     // Gradient of a loss by every parameter, given its gradient d_rgb (H, W, 3) by the picture's rgb. Renders first.
     bool (*backward)(Rasterizer *self, const Gaussians *model, const Camera *camera, const RenderSettings *settings,
                      const ImageF *d_rgb, Gaussians *d_model);
+    // NULL where a model costs nothing to pass: rasterizer_hold().
+    bool (*hold)(Rasterizer *self, const Gaussians *model);
     void (*destroy)(Rasterizer *self);
 } RasterizerApi;
 
@@ -59,5 +61,9 @@ bool rasterizer_backward(Rasterizer *r, const Gaussians *model, const Camera *ca
                          const ImageF *d_rgb,
                          Gaussians *d_model); // *d_model is created, owned by the caller
 void rasterizer_destroy(Rasterizer *r);       // accepts NULL
+
+// For many pictures of one model: copies it to the device, and calls with this very object (unchanged) copy it no more, until
+// rasterizer_hold(r, NULL) or a call with another model. It frees nothing.
+bool rasterizer_hold(Rasterizer *r, const Gaussians *model);
 
 #endif

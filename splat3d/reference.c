@@ -78,7 +78,7 @@ static bool table_backward(Rasterizer *self, const Gaussians *model, const Camer
 static void table_destroy(Rasterizer *self) { mem_free(self); }
 
 Rasterizer *reference_rasterizer_create(void) {
-    static const RasterizerApi api = {"reference", table_render, table_backward, table_destroy};
+    static const RasterizerApi api = {"reference", table_render, table_backward, NULL, table_destroy};
     Rasterizer *rasterizer = mem_alloc(1, sizeof *rasterizer);
     rasterizer->api = &api;
     return rasterizer;

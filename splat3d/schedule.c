@@ -15,6 +15,18 @@ void schedule_learning_rates(const TrainOptions *o, int step, double scene_exten
     rate[FIELD_SH1] = rate[FIELD_SH2] = rate[FIELD_SH3] = (float)o->lr_sh_rest;
 }
 
+int schedule_sizes(const TrainOptions *o, int width, int height) {
+    int shorter = width < height ? width : height, sizes = 1;
+    while (sizes <= o->coarse_levels && shorter >> sizes >= o->coarse_least) sizes++;
+    return sizes;
+}
+
+int schedule_coarse_level(const TrainOptions *o, int step) {
+    double coarse_steps = o->coarse_until * o->iterations;
+    if (step > coarse_steps) return 0;
+    return o->coarse_levels - (int)((step - 1) * o->coarse_levels / coarse_steps);
+}
+
 int schedule_sh_degree(const TrainOptions *o, int step) {
     int degree = step / o->sh_every;
     return degree < o->sh_degree ? degree : o->sh_degree;

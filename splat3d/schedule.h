@@ -10,6 +10,12 @@
 // Learning rate of each field at that step. scene_extent: world units.
 void schedule_learning_rates(const TrainOptions *options, int step, double scene_extent, float rate[FIELD_COUNT]);
 
+// In how many sizes training uses a picture of width x height px: as it is, halved, ... at most coarse_levels times.
+int schedule_sizes(const TrainOptions *options, int width, int height);
+
+// How many times the pictures of that step are halved: coarse_levels at first, 0 from coarse_until of the run on.
+int schedule_coarse_level(const TrainOptions *options, int step);
+
 int schedule_sh_degree(const TrainOptions *options, int step); // active degree
 
 bool schedule_density_is_on(const TrainOptions *options, int step);  // its statistics are gathered

@@ -10,11 +10,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { COARSE_LEVELS_MAX = 4 };
+
 typedef struct {
-    char scene[OPTION_TEXT_BYTES];      // folder of the data set
-    int iterations;                     // steps, one view each
-    uint64_t seed;                      // of everything random
-    int downscale;                      // pictures are used at 1/downscale of their size
+    char scene[OPTION_TEXT_BYTES]; // folder of the data set
+    int iterations;                // steps, one view each
+    uint64_t seed;                 // of everything random
+    int downscale;                 // pictures are used at 1/downscale of their size
+    int coarse_levels;   // training begins with pictures at 1/2^coarse_levels of their size; 0: full size at once
+    double coarse_until; // share of the run until the last halving is undone
+    int coarse_least;    // px; no side of a picture is halved below this
     char background[OPTION_TEXT_BYTES]; // "white", "black", "random" or "r,g,b" in [0, 1]
     int max_splats;                     // density control stops growing there
     int sh_degree;                      // 0..3, reached by one degree every sh_every iterations

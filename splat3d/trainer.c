@@ -12,6 +12,13 @@
 #include <math.h>
 #include <string.h>
 
+// A training view at one size.
+typedef struct {
+    Camera camera;
+    GpuBuffer *photo; // RGBA bytes on the device
+    int shrink;       // 1, 2, 4, ... times smaller than the view
+} Shot;
+
 struct Trainer {
     TrainOptions options;
     float background[3];
@@ -22,7 +29,8 @@ struct Trainer {
     // The training views, by index 0..view_count-1.
     int view_count;
     const View **views; // borrowed from the data set
-    GpuBuffer **photos; // RGBA bytes on the device
+    int level_count;    // sizes of each view: 1 + coarse_levels
+    Shot *shots;        // (view_count, level_count), level 0 the full size; one that would be too small has no photo
     int *view_order;    // of the current epoch
     int epoch;
 
@@ -39,20 +47,48 @@ struct Trainer {
     uint32_t next_id;
 };
 
+static Shot *shots_of(const Trainer *t, int view) { return t->shots + (size_t)view * (size_t)t->level_count; }
+
+// The view at all its sizes: each the half of the one before.
+static bool upload_view(Trainer *t, const View *view, Shot *shots) {
+    int sizes = schedule_sizes(&t->options, view->camera.width, view->camera.height);
+    shots[0] = (Shot){.camera = view->camera, .shrink = 1};
+    bool done = opencl_photo_create(t->gpu, &view->image, &shots[0].photo);
+    Image8 small = {0};
+    for (int level = 1; done && level < sizes; level++) {
+        Image8 half = image8_downscale(level == 1 ? &view->image : &small, 2);
+        image8_destroy(&small);
+        small = half;
+        shots[level] = (Shot){.camera = camera_shrunk(&view->camera, 1 << level), .shrink = 1 << level};
+        done = opencl_photo_create(t->gpu, &small, &shots[level].photo);
+    }
+    image8_destroy(&small);
+    return done;
+}
+
+// The view as that step sees it.
+static const Shot *shot_of(const Trainer *t, int step, int view) {
+    const Shot *shots = shots_of(t, view);
+    int level = schedule_coarse_level(&t->options, step);
+    while (!shots[level].photo) level--;
+    return &shots[level];
+}
+
 static bool upload_views(Trainer *t, Dataset *dataset) {
     t->view_count = dataset_train_count(dataset);
     if (t->view_count == 0)
         return fail("%s: no view is left to train on; all %d are held out", dataset->path, dataset->view_count);
     t->views = mem_alloc((size_t)t->view_count, sizeof *t->views);
-    t->photos = mem_alloc((size_t)t->view_count, sizeof *t->photos);
+    t->level_count = 1 + t->options.coarse_levels;
+    t->shots = mem_alloc((size_t)t->view_count * (size_t)t->level_count, sizeof *t->shots);
     t->view_order = mem_alloc((size_t)t->view_count, sizeof *t->view_order);
     t->epoch = -1;
     for (int i = 0, n = 0; i < dataset->view_count; i++) {
         View *view = &dataset->views[i];
         if (view->held_out) continue;
-        if (!opencl_photo_create(t->gpu, &view->image, &t->photos[n])) return fail_context("%s", view->path);
+        t->views[n] = view;
+        if (!upload_view(t, view, shots_of(t, n++))) return fail_context("%s", view->path);
         image8_destroy(&view->image);
-        t->views[n++] = view;
     }
     return true;
 }
@@ -100,9 +136,9 @@ bool trainer_create(Gpu *gpu, BlendKernels blend, const TrainOptions *options, D
 
 void trainer_destroy(Trainer *t) {
     if (!t) return;
-    for (int i = 0; t->photos && i < t->view_count; i++) gpu_buffer_destroy(t->photos[i]);
+    for (int i = 0; t->shots && i < t->view_count * t->level_count; i++) gpu_buffer_destroy(t->shots[i].photo);
     mem_free(t->views);
-    mem_free(t->photos);
+    mem_free(t->shots);
     mem_free(t->view_order);
     mem_free(t->id);
     gpu_buffer_destroy(t->statistics.gradient_ndc);
@@ -147,6 +183,8 @@ bool trainer_get_state(const Trainer *t, TrainingState *state) {
     return done;
 }
 
+bool trainer_get_model(const Trainer *t, Gaussians *model) { return device_gaussians_read(&t->model, model); }
+
 bool trainer_set_state(Trainer *t, const TrainingState *s) {
     size_t n = (size_t)s->model.count;
     if (s->scene != t->scene)
@@ -189,11 +227,13 @@ static bool descend(Trainer *t, int step, int view, StepReport *report) {
     float rate[FIELD_COUNT];
     schedule_learning_rates(&t->options, step, t->dataset->extent, rate);
     DensityStatistics *statistics = schedule_density_is_on(&t->options, step) ? &t->statistics : NULL;
+    const Shot *shot = shot_of(t, step, view);
     int splat;
     GaussianFieldId field;
-    bool done = opencl_render(t->rasterizer, &t->model, &t->views[view]->camera, &settings);
+    report->shrink = shot->shrink;
+    bool done = opencl_render(t->rasterizer, &t->model, &shot->camera, &settings);
     gpu_stage(t->gpu, "loss");
-    done = done && opencl_loss_run(t->loss, opencl_picture(t->rasterizer), t->photos[view], settings.background,
+    done = done && opencl_loss_run(t->loss, opencl_picture(t->rasterizer), shot->photo, settings.background,
                                    (float)t->options.dssim_weight);
     done = done && opencl_backward(t->rasterizer, &t->model, &t->gradient, statistics);
     gpu_stage(t->gpu, "adam");
@@ -219,6 +259,8 @@ static bool adapt(Trainer *t, int step, StepReport *report) {
     report->opacity_reset = schedule_reset_is_due(&t->options, step, white);
     if (!control && !report->opacity_reset) return true;
     TrainingState state;
+    gpu_stage(t->gpu, "density");
+    double began = clock_seconds();
     if (!trainer_get_state(t, &state)) return false;
     if (control)
         report->density =
@@ -230,6 +272,7 @@ static bool adapt(Trainer *t, int step, StepReport *report) {
     else
         fail("step %d: density control would remove every splat; lower --prune-opacity, or check the cameras", step);
     training_state_destroy(&state);
+    gpu_stage_host(t->gpu, 1e3 * (clock_seconds() - began));
     return done;
 }
 
@@ -244,6 +287,7 @@ bool trainer_step(Trainer *t, StepReport *report) {
     t->steps_done = step;
     if (!adapt(t, step, report)) return false;
     report->splats = t->model.count;
-    t->seconds += clock_seconds() - began;
+    report->seconds = clock_seconds() - began;
+    t->seconds += report->seconds;
     return true;
 }

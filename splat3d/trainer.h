@@ -22,12 +22,14 @@ void trainer_destroy(Trainer *trainer); // accepts NULL
 typedef struct {
     int step;         // the one just done; 1 is the first
     const char *view; // that it saw
+    int shrink;       // at 1/shrink of its size: 1, 2, 4, ... (schedule_coarse_level)
     LossValues loss;  // before the step
-    double psnr;      // of that view, dB
+    double psnr;      // of that view, at that size, dB
     int splats;       // after the step
     FrameCounts frame;
     DensityChange density; // zero unless density control ran
     bool opacity_reset;
+    double seconds; // that it took
 } StepReport;
 
 // One step. Fails on a device error; when a gradient or a parameter is no longer finite: the message names step, view, splat and
@@ -40,6 +42,8 @@ double trainer_scene_extent(const Trainer *trainer); // world units
 
 // Everything learned so far, to be written (training_state.h) or looked at; owned by the caller.
 bool trainer_get_state(const Trainer *trainer, TrainingState *state);
+// Of that the model alone; owned by the caller.
+bool trainer_get_model(const Trainer *trainer, Gaussians *model);
 // Goes on from that state (copied). Its SH degree must be that of the options, and the scene what it was.
 bool trainer_set_state(Trainer *trainer, const TrainingState *state);
 

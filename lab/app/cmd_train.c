@@ -3,6 +3,7 @@
 #include "lab/app/commands.h"
 #include "lab/app/metrics_log.h"
 #include "lab/app/run_folder.h"
+#include "lab/app/run_profile.h"
 #include "lab/base/clock.h"
 #include "lab/base/fail.h"
 #include "lab/base/interrupt.h"
@@ -28,7 +29,7 @@ typedef struct {
     char device[OPTION_TEXT_BYTES];
     char kernels[OPTION_TEXT_BYTES];
     int blend; // BlendKernels
-    bool quiet, json;
+    bool profile, quiet, json;
 } Options;
 
 static const char *const BLENDS[] = {"auto", "cpu", "gpu", NULL};
@@ -77,6 +78,10 @@ static const OptionField COMMAND_FIELDS[] = {
      .choices = BLENDS,
      .high = 2,
      .help = "which blend kernels: made for a CPU, for a GPU, or by the device"},
+    {.name = "profile",
+     .type = OPTION_FLAG,
+     .offset = offsetof(Options, profile),
+     .help = "print where the time went at the end: milliseconds a step by stage (--json always has them)"},
     {OPTION_QUIET_OF(Options)},
     {OPTION_JSON_OF(Options, "the result")},
 };
@@ -106,6 +111,7 @@ typedef struct {
     Dataset dataset;
     Trainer *trainer;
     MetricsLog log;
+    RunProfile profile;
     int first_step; // where this process began
     double began_s; // when its first step began
     double seconds; // spent on steps by earlier processes of this run
@@ -136,12 +142,12 @@ static bool save_all(const Run *run, bool with_model) {
 }
 
 static bool score(const Run *run, bool show_progress, Evaluation *evaluation) {
-    TrainingState state;
-    if (!trainer_get_state(run->trainer, &state)) return false;
+    Gaussians model;
+    if (!trainer_get_model(run->trainer, &model)) return false;
     RenderSettings settings = trainer_render_settings(run->trainer);
-    bool done = evaluate_model(trainer_rasterizer(run->trainer), &state.model, &run->dataset, &settings, show_progress,
-                               evaluation);
-    training_state_destroy(&state);
+    bool done =
+        evaluate_model(trainer_rasterizer(run->trainer), &model, &run->dataset, &settings, show_progress, evaluation);
+    gaussians_destroy(&model);
     return done;
 }
 
@@ -240,11 +246,13 @@ static bool due(int step, int every) { return every > 0 && step % every == 0; }
 // What stands beside a step: the log, the score, the checkpoint.
 static bool after_step(Run *run, const StepReport *report) {
     const Options *o = &run->options;
+    run_profile_add_step(&run->profile, report);
     bool changed = report->density.cloned || report->density.split || report->density.pruned || report->opacity_reset;
     if (due(report->step, o->log_every) || changed || report->step == o->train.iterations) {
         const GpuStageTime *times;
         int count;
         if (!gpu_stage_times(run->gpu, &times, &count)) return false;
+        run_profile_add_stages(&run->profile, times, count);
         if (!metrics_log_step(&run->log, report, run_seconds(run), times, count)) return false;
     }
     if (due(report->step, o->eval_every) && report->step < o->train.iterations) {
@@ -302,15 +310,17 @@ static bool print_result(Run *run, bool interrupted) {
     int splats = trainer_splat_count(run->trainer);
     bool logged = here == 0 || metrics_log_evaluation(&run->log, done, &e); // no new step, no new score
     if (run->options.json) {
-        json_t *root =
-            json_pack("{sf sf si si sf sf ss sI so sb}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",
-                      done, "seconds", seconds, "ms_per_iteration", ms, "model_sha256", sha256, "peak_rss_bytes",
-                      (json_int_t)mem_peak_bytes(), "model", json_text(run->folder.model), "interrupted", interrupted);
+        json_t *root = json_pack(
+            "{sf sf si si sf sf ss sI so sb so sf}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",
+            done, "seconds", seconds, "ms_per_iteration", ms, "model_sha256", sha256, "peak_rss_bytes",
+            (json_int_t)mem_peak_bytes(), "model", json_text(run->folder.model), "interrupted", interrupted, "profile",
+            run_profile_json(&run->profile), "seconds_to_first_iteration", run->profile.first_step_s);
         json_print(root);
         json_decref(root);
     } else {
         printf("%s: %d steps, %d splats, %s PSNR %.2f dB, SSIM %.4f, %.0f s (%.1f ms a step)\n", run->folder.model,
                done, splats, scored_views(run), e.psnr, e.ssim, seconds, ms);
+        if (run->options.profile) run_profile_print(&run->profile);
     }
     evaluation_destroy(&e);
     return logged;

@@ -2,6 +2,7 @@
 #include "lab/app/facts.h"
 
 #include "kernels/shared.h"
+#include "splat3d/schedule.h"
 
 #include <stdint.h>
 
@@ -30,13 +31,18 @@ static size_t copied_bytes(int sh_degree) {
 // The program itself with the OpenCL driver and its compiler, as measured with PoCL.
 static const size_t PROGRAM_BYTES = (size_t)256 << 20;
 
-// Photographs stand on the device as RGBA bytes; those held out wait on the host as they were read.
+// Photographs stand on the device as RGBA bytes, in all the sizes that training uses; those held out wait on the host as they
+// were read.
 static size_t photo_bytes(const Dataset *dataset) {
+    const TrainOptions options = train_options_default();
     size_t bytes = 0;
     for (int i = 0; i < dataset->view_count; i++) {
         const View *view = &dataset->views[i];
-        size_t pixels = (size_t)view->camera.width * (size_t)view->camera.height;
-        bytes += pixels * (size_t)(view->held_out ? view->channels : 4);
+        const int width = view->camera.width, height = view->camera.height;
+        const int sizes = view->held_out ? 1 : schedule_sizes(&options, width, height);
+        for (int level = 0; level < sizes; level++)
+            bytes +=
+                (size_t)(width >> level) * (size_t)(height >> level) * (size_t)(view->held_out ? view->channels : 4);
     }
     return bytes;
 }
@@ -63,11 +69,13 @@ json_t *facts_of_memory(int splats, int sh_degree, const Dataset *dataset) {
     size_t total = PROGRAM_BYTES + (size_t)splats * (learned + working + copied);
     json_object_set_new(facts, "splats", json_integer(splats));
     json_object_set_new(facts, "sh_degree", json_integer(sh_degree));
+    set_bytes(facts, "per_splat_bytes", learned + working + copied);
     set_bytes(facts, "learned_per_splat_bytes", learned);
     set_bytes(facts, "working_per_splat_bytes", working);
     set_bytes(facts, "copied_per_splat_bytes", copied);
     set_bytes(facts, "program_bytes", PROGRAM_BYTES);
     if (dataset) {
+        set_bytes(facts, "per_photograph_bytes", photo_bytes(dataset) / (size_t)dataset->view_count);
         set_bytes(facts, "photographs_bytes", photo_bytes(dataset));
         set_bytes(facts, "picture_bytes", picture_bytes(dataset));
         total += photo_bytes(dataset) + picture_bytes(dataset);

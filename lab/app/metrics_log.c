@@ -64,6 +64,7 @@ bool metrics_log_step(MetricsLog *log, const StepReport *r, double seconds, cons
         json_object_set_new(line, "split", json_integer(r->density.split));
         json_object_set_new(line, "pruned", json_integer(r->density.pruned));
     }
+    if (r->shrink > 1) json_object_set_new(line, "shrink", json_integer(r->shrink));
     if (r->opacity_reset) json_object_set_new(line, "opacity_reset", json_true());
     log->logged_step = r->step;
     return write_line(log, line);

@@ -1,7 +1,8 @@
 // metrics_log.h - RUN/metrics.jsonl: what training measured, one JSON object a line, in the order of the steps.
 //
 // A line of a step: {"iteration", "loss", "l1", "ssim", "psnr" (of the view that the step saw), "splats", "visible", "pairs", "seconds",
-// "ms": {stage: milliseconds per step since the line before}}, and "cloned", "split", "pruned", "opacity_reset" when density control ran.
+// "ms": {stage: milliseconds per step since the line before}}; with "cloned", "split", "pruned" and "opacity_reset" when density
+// control ran, and with "shrink" when the view was used at 1/shrink of its size (--coarse-levels): l1, ssim and psnr are of that size.
 // A line of an evaluation: {"iteration", "held_out": {"psnr", "ssim", "psnr8"}}.
 #ifndef SPLATLAB_LAB_APP_METRICS_LOG_H
 #define SPLATLAB_LAB_APP_METRICS_LOG_H

@@ -89,6 +89,10 @@ static void training_memory_is_944_bytes_a_splat_of_degree_3_and_more(void **sta
     const json_t *memory = json_object_get(root, "training_memory");
     assert_int_equal(integer(memory, "learned_per_splat_bytes"), 944);
     assert_int_equal(integer(memory, "photographs_bytes"), 48 * 32 * (4 * 7 + 3 * 2));
+    assert_int_equal(integer(memory, "per_photograph_bytes"), integer(memory, "photographs_bytes") / LITTLE_VIEWS);
+    assert_int_equal(integer(memory, "per_splat_bytes"), integer(memory, "learned_per_splat_bytes") +
+                                                             integer(memory, "working_per_splat_bytes") +
+                                                             integer(memory, "copied_per_splat_bytes"));
     assert_true(integer(memory, "total_bytes") > 1000 * 944 + integer(memory, "photographs_bytes"));
     assert_int_equal(integer(memory, "total_bytes"), integer(root, "training_memory_bytes"));
     json_decref(root);

@@ -37,14 +37,31 @@ static void a_run_leaves_its_files_and_its_figures(void **state) {
     CommandResult r = command_run("train", scene, "-o", run, "--iterations", "20", "--quiet", "--json", NULL);
     json_t *root = parse(&r);
     assert_string_equal(r.err, "");
-    static const char *const keys[] = {"psnr",         "ssim",          "splats", "seconds", "ms_per_iteration",
-                                       "model_sha256", "peak_rss_bytes"};
+    static const char *const keys[] = {"psnr",
+                                       "ssim",
+                                       "splats",
+                                       "seconds",
+                                       "ms_per_iteration",
+                                       "model_sha256",
+                                       "peak_rss_bytes",
+                                       "seconds_to_first_iteration"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (!json_object_get(root, keys[i])) fail_msg("no \"%s\" in the result", keys[i]);
     char hex[65];
     assert_true(file_sha256(support_path(run, "model.ply"), hex));
     assert_string_equal(json_string_value(json_object_get(root, "model_sha256")), hex);
     assert_true(file_exists(support_path(run, "options.json")));
+    json_t *profile = json_object_get(root, "profile"), *stages = json_object_get(profile, "stages_ms"), *ms;
+    const char *stage;
+    double sum = 0;
+    assert_int_equal(json_integer_value(json_object_get(profile, "steps")), 20);
+    assert_true(json_object_size(stages) == 9);
+    json_object_foreach(stages, stage, ms) {
+        assert_true(json_real_value(ms) > 0 || strcmp(stage, "other") == 0);
+        sum += json_real_value(ms);
+    }
+    support_near(sum, json_real_value(json_object_get(profile, "ms")), 1e-9, "ms a step");
+    assert_true(json_real_value(json_object_get(root, "seconds_to_first_iteration")) > 0.001);
     assert_true(file_exists(support_path(run, "metrics.jsonl")));
 
     // The figures are those that eval finds in the saved model.
@@ -57,6 +74,16 @@ static void a_run_leaves_its_files_and_its_figures(void **state) {
 
     r = command_run("train", scene, "-o", run, "--iterations", "20", NULL);
     command_expect_error(&r, 1, "holds a run already", "--overwrite", NULL);
+}
+
+static void a_profile_is_a_table_of_stages(void **state) {
+    (void)state;
+    CommandResult r =
+        command_run("train", scene, "-o", new_run("profile"), "--iterations", "3", "--quiet", "--profile", NULL);
+    command_expect(&r, 0);
+    assert_non_null(strstr(r.out, "3 steps with 24 splats in the mean"));
+    assert_non_null(strstr(r.out, "\nblend_backward "));
+    assert_non_null(strstr(r.out, "\nother "));
 }
 
 static void wrong_usage_ends_with_exit_code_2(void **state) {
@@ -174,6 +201,7 @@ static void a_scene_whose_path_is_no_utf8_is_refused_before_anything_is_written(
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_leaves_its_files_and_its_figures),
+        cmocka_unit_test(a_profile_is_a_table_of_stages),
         cmocka_unit_test(wrong_usage_ends_with_exit_code_2),
         cmocka_unit_test(what_is_no_scene_fails_with_a_hint),
         cmocka_unit_test(a_missing_image_is_named),

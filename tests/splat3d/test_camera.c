@@ -85,6 +85,21 @@ static void a_smaller_picture_shows_the_same_part_of_the_world(void **state) {
     support_near(v, y / 2, 1e-10, "y");
 }
 
+static void a_shrunk_picture_cuts_off_what_does_not_fill_a_pixel(void **state) {
+    (void)state;
+    Camera camera = some_camera();
+    camera.width = 641;
+    camera.height = 482;
+    Camera small = camera_shrunk(&camera, 4);
+    assert_int_equal(small.width, 160);
+    assert_int_equal(small.height, 120);
+    double x, y, u, v, depth;
+    camera_project(&camera, vec3(0.2, 0.3, 0.4), &x, &y, &depth);
+    camera_project(&small, vec3(0.2, 0.3, 0.4), &u, &v, &depth);
+    support_near(u, x / 4, 1e-10, "x"); // by exactly 4, not by 641 / 160
+    support_near(v, y / 4, 1e-10, "y");
+}
+
 static void quaternions_and_rotations_turn_into_each_other(void **state) {
     (void)state;
     Rng rng = rng_at(3, RNG_TEST, 0, 0);
@@ -213,6 +228,7 @@ int main(void) {
         cmocka_unit_test(the_field_of_view_reaches_the_edges),
         cmocka_unit_test(a_ray_goes_through_what_is_projected_to_its_pixel),
         cmocka_unit_test(a_smaller_picture_shows_the_same_part_of_the_world),
+        cmocka_unit_test(a_shrunk_picture_cuts_off_what_does_not_fill_a_pixel),
         cmocka_unit_test(quaternions_and_rotations_turn_into_each_other),
         cmocka_unit_test(an_opengl_pose_comes_back),
         cmocka_unit_test(what_is_no_rotation_is_refused),

@@ -223,6 +223,36 @@ static void unknown_settings_are_refused(void **state) {
     gaussians_destroy(&model);
 }
 
+static void a_held_model_is_copied_once_and_let_go(void **state) {
+    Renderers *r = *state;
+    const RandomScene scene = random_scene_default(61);
+    const Camera camera = random_scene_camera(61, 40, 30);
+    const RenderSettings settings = render_settings_default();
+    const size_t bytes = 40 * 30 * 3 * sizeof(float);
+    Gaussians model = random_scene_gaussians(&scene, &camera), other = gaussians_create(3, 0);
+    Rasterizer *rasterizer = opencl_rasterizer_interface(r->shape[0]);
+    Picture first = render(rasterizer, &model, &camera, &settings);
+    assert_true(rasterizer_hold(rasterizer, &model));
+    for (int i = 0; i < model.count; i++) *gaussians_at(&model, FIELD_OPACITY_LOGIT, i) = -3;
+    Picture held = render(rasterizer, &model, &camera, &settings); // of the copy: the change is not seen
+    assert_memory_equal(held.rgb.values, first.rgb.values, bytes);
+    assert_true(rasterizer_hold(rasterizer, NULL));
+    Picture fresh = render(rasterizer, &model, &camera, &settings);
+    assert_memory_not_equal(fresh.rgb.values, first.rgb.values, bytes);
+
+    // Another model in between is taken as it is, and lets go too.
+    assert_true(rasterizer_hold(rasterizer, &model));
+    Picture none = render(rasterizer, &other, &camera, &settings);
+    Picture again = render(rasterizer, &model, &camera, &settings);
+    assert_memory_not_equal(none.rgb.values, fresh.rgb.values, bytes);
+    assert_memory_equal(again.rgb.values, fresh.rgb.values, bytes);
+    assert_true(rasterizer_hold(rasterizer, NULL) && rasterizer_hold(r->reference, &model));
+    Picture *pictures[] = {&first, &held, &fresh, &none, &again};
+    for (int i = 0; i < 5; i++) picture_destroy(pictures[i]);
+    gaussians_destroy(&model);
+    gaussians_destroy(&other);
+}
+
 // ---- the same bytes, whatever the number of threads ----
 
 static uint64_t hash(uint64_t h, const float *values, size_t count) {
@@ -290,6 +320,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_scene_without_splats_shows_the_background),
         cmocka_unit_test(degenerate_splats_leave_everything_finite),
         cmocka_unit_test(unknown_settings_are_refused),
+        cmocka_unit_test(a_held_model_is_copied_once_and_let_go),
         cmocka_unit_test(picture_and_gradients_are_the_same_bytes_with_one_thread_and_with_more),
     };
     return cmocka_run_group_tests(tests, create_renderers, destroy_renderers);

@@ -90,6 +90,49 @@ static void a_resumed_run_sees_the_views_of_an_uninterrupted_one(void **state) {
     }
 }
 
+// How many steps of a run see pictures of each level.
+static void count_levels(const TrainOptions *o, int counts[COARSE_LEVELS_MAX + 1]) {
+    memset(counts, 0, (COARSE_LEVELS_MAX + 1) * sizeof *counts);
+    int before = o->coarse_levels;
+    for (int step = 1; step <= o->iterations; step++) {
+        int level = schedule_coarse_level(o, step);
+        assert_in_range(level, 0, before); // pictures never shrink again
+        counts[before = level]++;
+    }
+}
+
+static void pictures_grow_in_equal_parts_until_coarse_until_and_are_whole_from_there(void **state) {
+    (void)state;
+    TrainOptions o = published();
+    int counts[COARSE_LEVELS_MAX + 1];
+    o.iterations = 1000, o.coarse_levels = 3, o.coarse_until = 0.6;
+    count_levels(&o, counts);
+    assert_int_equal(counts[3], 200);
+    assert_int_equal(counts[2], 200);
+    assert_int_equal(counts[1], 200);
+    assert_int_equal(counts[0], 400);
+    o.coarse_until = 1; // and where it does not divide
+    o.iterations = 1001;
+    count_levels(&o, counts);
+    for (int level = 1; level <= 3; level++) assert_in_range(counts[level], 333, 334);
+    assert_int_equal(counts[0], 0);
+    o.coarse_until = 0;
+    assert_int_equal(schedule_coarse_level(&o, 1), 0);
+    o.coarse_until = 0.6, o.coarse_levels = 0;
+    assert_int_equal(schedule_coarse_level(&o, 1), 0);
+}
+
+static void pictures_are_halved_as_long_as_their_sides_allow(void **state) {
+    (void)state;
+    TrainOptions o = published();
+    o.coarse_levels = 2, o.coarse_least = 100;
+    assert_int_equal(schedule_sizes(&o, 640, 426), 3);
+    assert_int_equal(schedule_sizes(&o, 399, 640), 2);
+    assert_int_equal(schedule_sizes(&o, 640, 199), 1);
+    o.coarse_levels = 0;
+    assert_int_equal(schedule_sizes(&o, 640, 426), 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(density_control_runs_from_600_to_14900_every_100),
@@ -97,6 +140,8 @@ int main(void) {
         cmocka_unit_test(the_mean_rate_decays_log_linearly_from_start_to_end),
         cmocka_unit_test(one_sh_degree_more_every_1000_steps),
         cmocka_unit_test(every_epoch_sees_every_view_once_in_another_order),
+        cmocka_unit_test(pictures_grow_in_equal_parts_until_coarse_until_and_are_whole_from_there),
+        cmocka_unit_test(pictures_are_halved_as_long_as_their_sides_allow),
         cmocka_unit_test(a_resumed_run_sees_the_views_of_an_uninterrupted_one),
     };
     return cmocka_run_group_tests_name("schedule", tests, NULL, NULL);

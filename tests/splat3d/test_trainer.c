@@ -11,7 +11,9 @@
 #include "splat3d/trainer.h"
 #include "tests/support/support.h"
 
+#include <dlfcn.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { VIEWS = 3, WIDTH = 45, HEIGHT = 34, TRUTH = 40, POINTS = 25 };
@@ -173,6 +175,7 @@ static TrainOptions busy_options(void) {
     TrainOptions o = small_options(60);
     o.densify_from = 10, o.densify_every = 5, o.densify_until = 0.9, o.reset_every = 20, o.densify_gradient = 5e-5;
     strcpy(o.background, "random");
+    o.coarse_levels = 1, o.coarse_until = 0.3, o.coarse_least = 16; // full size from step 19 on
     return o;
 }
 
@@ -222,7 +225,8 @@ static void an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one(void 
     (void)state;
     TrainOptions o = busy_options();
     TrainingState whole = train_steps(&o, NULL, 60);
-    const int stops[] = {1, 15, 17, 20, 59}; // at the start, at and between density control, at a reset, at the end
+    const int stops[] = {1, 15, 17, 20,
+                         59}; // at the start, coarse, at and between density control, at a reset, at the end
     for (size_t i = 0; i < sizeof stops / sizeof stops[0]; i++) {
         const char *path = support_path(support_scratch(), "checkpoint.bin");
         TrainingState half = train_steps(&o, NULL, stops[i]), loaded;
@@ -234,6 +238,102 @@ static void an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one(void 
         training_state_destroy(&resumed);
     }
     training_state_destroy(&whole);
+}
+
+// ---- coarse to fine ----
+
+// What a trainer does in a step with pictures of 1/4 is what another does whose photographs are so small.
+static void a_coarse_step_is_a_step_on_smaller_photographs(void **state) {
+    (void)state;
+    TrainOptions o = small_options(9);
+    o.densify_until = 0;
+    Dataset small = make_dataset(), d = make_dataset();
+    for (int v = 0; v < VIEWS; v++) {
+        View *view = &small.views[v];
+        Image8 half = image8_downscale(&view->image, 2), quarter = image8_downscale(&half, 2);
+        image8_destroy(&half);
+        image8_destroy(&view->image);
+        view->image = quarter;
+        view->camera = camera_shrunk(&view->camera, 4);
+    }
+    Trainer *expected, *actual;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &small, &expected));
+    o.coarse_levels = 2, o.coarse_until = 2 / 3.0, o.coarse_least = 8;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &actual));
+    static const int shrinks[] = {4, 4, 4, 2, 2, 2, 1, 1, 1};
+    for (int step = 1; step <= 9; step++) {
+        StepReport a, e;
+        check(trainer_step(actual, &a) && trainer_step(expected, &e));
+        assert_int_equal(a.shrink, shrinks[step - 1]);
+        assert_int_equal(e.shrink, 1);
+        assert_true((a.loss.total == e.loss.total) == (step <= 3));
+    }
+    trainer_destroy(actual);
+    trainer_destroy(expected);
+    dataset_destroy(&small);
+    dataset_destroy(&d);
+}
+
+static void no_picture_is_halved_below_the_least_side(void **state) {
+    (void)state;
+    TrainOptions o = small_options(10);
+    o.coarse_levels = 4, o.coarse_until = 1;
+    const int least[] = {8, 9, 17, 18, 34, 35}, shrinks[] = {4, 2, 2, 1, 1, 1}; // of 45 x 34 px
+    for (size_t i = 0; i < sizeof least / sizeof least[0]; i++) {
+        o.coarse_least = least[i];
+        Dataset d = make_dataset();
+        Trainer *trainer;
+        StepReport report;
+        check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+        check(trainer_step(trainer, &report));
+        assert_int_equal(report.shrink, shrinks[i]);
+        trainer_destroy(trainer);
+        dataset_destroy(&d);
+    }
+}
+
+// ---- what a step costs besides its work ----
+
+// The two functions below stand before those of the libraries, for the whole program; calls from its own code are counted.
+static int allocations;
+
+static bool is_own_code(void *address) {
+    Dl_info caller, own;
+    return dladdr(address, &caller) && dladdr(&allocations, &own) && caller.dli_fbase == own.dli_fbase;
+}
+
+void *aligned_alloc(size_t alignment, size_t bytes) { // behind mem_alloc()
+    static void *(*real)(size_t, size_t);
+    if (!real) real = (void *(*)(size_t, size_t))dlsym(RTLD_NEXT, "aligned_alloc");
+    allocations += is_own_code(__builtin_return_address(0));
+    return real(alignment, bytes);
+}
+
+void *clCreateBuffer(void *context, uint64_t flags, size_t bytes, void *host, int32_t *code); // as CL/cl.h has it
+void *clCreateBuffer(void *context, uint64_t flags, size_t bytes, void *host, int32_t *code) {
+    static void *(*real)(void *, uint64_t, size_t, void *, int32_t *);
+    if (!real) real = (void *(*)(void *, uint64_t, size_t, void *, int32_t *))dlsym(RTLD_NEXT, "clCreateBuffer");
+    allocations++;
+    return real(context, flags, bytes, host, code);
+}
+
+static void a_warm_step_allocates_nothing(void **state) {
+    (void)state;
+    enum { WARM = 10 * VIEWS, STEPS = 10 * VIEWS };
+    TrainOptions o = small_options(WARM + STEPS + 1);
+    o.densify_from = WARM + STEPS, o.densify_until = 1; // its statistics are gathered, as in a real run
+    Dataset d = make_dataset();
+    Trainer *trainer;
+    StepReport report;
+    allocations = 0;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+    assert_true(allocations > 40); // they are noticed: a buffer for each field of four sets, arrays on the host
+    for (int step = 1; step <= WARM; step++) check(trainer_step(trainer, &report));
+    allocations = 0;
+    for (int step = 1; step <= STEPS; step++) check(trainer_step(trainer, &report));
+    assert_int_equal(allocations, 0);
+    trainer_destroy(trainer);
+    dataset_destroy(&d);
 }
 
 // ---- what goes wrong is named ----
@@ -338,6 +438,9 @@ int main(void) {
         cmocka_unit_test(ten_steps_lose_what_the_reference_loses),
         cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_does_not),
         cmocka_unit_test(an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one),
+        cmocka_unit_test(a_coarse_step_is_a_step_on_smaller_photographs),
+        cmocka_unit_test(no_picture_is_halved_below_the_least_side),
+        cmocka_unit_test(a_warm_step_allocates_nothing),
         cmocka_unit_test(a_number_that_is_not_finite_stops_training_by_name),
         cmocka_unit_test(a_state_of_another_scene_is_refused),
         cmocka_unit_test(a_warm_step_allocates_builds_and_copies_nothing),
