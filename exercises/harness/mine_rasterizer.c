@@ -295,7 +295,7 @@ static bool table_backward(Rasterizer *self, const Gaussians *model, const Camer
 static void table_destroy(Rasterizer *self) { mem_free(self); }
 
 Rasterizer *mine_rasterizer_create(Mine *mine) {
-    static const RasterizerApi api = {"mine", table_render, table_backward, table_destroy};
+    static const RasterizerApi api = {"mine", table_render, table_backward, NULL, table_destroy};
     MineRasterizer *rasterizer = mem_alloc(1, sizeof *rasterizer);
     rasterizer->base.api = &api;
     rasterizer->mine = mine;
