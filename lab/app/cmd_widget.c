@@ -1,17 +1,35 @@
 // cmd_widget.c - `splatlab widget`: the 2-D lesson in a window.
 #include "lab/app/commands.h"
 #include "lab/app/widget.h"
+#include "lab/app/widget_speed.h"
 #include "lab/app/window_options.h"
+#include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "splat2d/scene2d_json.h"
 
-static bool show(const WindowOptions *o, const char *path) {
-    Scene2d scene = {0};
-    if (!window_options_check(o, "widget")) return false;
-    if (!path)
-        scene = scene2d_default();
-    else if (!scene2d_load(path, &scene))
-        return false;
+#include <string.h>
+
+typedef struct {
+    WindowOptions window;
+    bool speed, json;
+} Options;
+
+static const OptionField OWN_FIELDS[] = {
+    {.name = "speed",
+     .type = OPTION_FLAG,
+     .offset = offsetof(Options, speed),
+     .help = "instead: how many frames a second this machine makes, of the scene and of 200 blobs",
+     .section = "Speed"},
+    {OPTION_JSON_OF(Options, "the speeds")},
+};
+enum { OWN_FIELD_COUNT = sizeof OWN_FIELDS / sizeof OWN_FIELDS[0] };
+
+static bool measure(const WindowOptions *o, const Scene2d *scene, bool as_json) {
+    ScreenOptions screen_options = window_options_screen(o, "splatlab - measuring");
+    return widget_speed(scene, &screen_options, as_json);
+}
+
+static bool show(const WindowOptions *o, Scene2d scene, const char *path) {
     ScreenOptions screen_options = window_options_screen(o, "splatlab - Gaussians in the plane");
     Screen *screen = screen_open(&screen_options);
     if (!screen) {
@@ -29,16 +47,31 @@ static bool show(const WindowOptions *o, const char *path) {
     return good;
 }
 
+static bool run_widget(const Options *o, const char *path) {
+    Scene2d scene = {0};
+    if (o->json && !o->speed) return fail_usage("widget: --json goes with --speed");
+    if (!window_options_check(&o->window, "widget")) return false;
+    if (!path)
+        scene = scene2d_default();
+    else if (!scene2d_load(path, &scene))
+        return false;
+    if (!o->speed) return show(&o->window, scene, path);
+    bool good = measure(&o->window, &scene, o->json);
+    scene2d_destroy(&scene);
+    return good;
+}
+
 static int cmd_widget(int argc, char **argv) {
-    const WindowOptions defaults = {0};
-    OptionField fields[WINDOW_OPTION_COUNT];
-    const OptionTable table = {fields, WINDOW_OPTION_COUNT, &defaults};
-    WindowOptions options = defaults;
+    const Options defaults = {0};
+    OptionField fields[WINDOW_OPTION_COUNT + OWN_FIELD_COUNT];
+    const OptionTable table = {fields, WINDOW_OPTION_COUNT + OWN_FIELD_COUNT, &defaults};
+    Options options = defaults;
     const char *path = NULL;
     int count, exit_code;
-    window_options_fields(0, fields);
+    window_options_fields(offsetof(Options, window), fields);
+    memcpy(fields + WINDOW_OPTION_COUNT, OWN_FIELDS, sizeof OWN_FIELDS);
     if (!command_line_parse(&CMD_WIDGET, &table, argc, argv, &options, &path, 1, &count, &exit_code)) return exit_code;
-    return show(&options, path) ? 0 : command_failed();
+    return run_widget(&options, path) ? 0 : command_failed();
 }
 
 const Command CMD_WIDGET = {
