@@ -131,7 +131,8 @@ bool widget_frame(Widget *widget) {
     if (widget->is_asking) widget_demo_question(widget, stage);
     if (widget->film.is_on) show_film(widget, stage);
     widget_help(widget);
-    if (!gui_is_holding() || gui_mouse().released[GUI_LEFT]) history_record(&widget->history, &widget->scene, widget->active);
+    if (!gui_is_holding() || gui_mouse().released[GUI_LEFT])
+        history_record(&widget->history, &widget->scene, widget->active);
     return widget_write_state(widget) && widget_write_places(widget);
 }
 
