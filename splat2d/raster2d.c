@@ -156,8 +156,8 @@ typedef struct {
     Real rgb[3];
 } Blend;
 
-// composite_blend() for the pixels i, i + 1, ... of the strip.
-static inline void blend_lanes(Strip *strip, int i, const Blend *blend, Lanes alpha) {
+// composite_blend() for the pixels i, i + 1, ... of the strip. inside: those among them that the blob reaches.
+static inline void blend_lanes(Strip *strip, int i, const Blend *blend, Lanes alpha, Mask inside) {
     Lanes before = lanes_load(&strip->transmittance[i]), open = lanes_load(&strip->open[i]);
     alpha = lanes_only((open > 0) & (alpha >= blend->alpha_min), lanes_min(alpha, lanes_all(blend->alpha_max)));
     Lanes behind = before * (1 - alpha);
@@ -169,7 +169,7 @@ static inline void blend_lanes(Strip *strip, int i, const Blend *blend, Lanes al
     Lanes weight = before * alpha;
     for (int c = 0; c < 3; c++) lanes_store(&strip->rgb[c][i], lanes_load(&strip->rgb[c][i]) + weight * blend->rgb[c]);
     lanes_store(&strip->transmittance[i], behind);
-    lanes_store(&strip->visits[i], lanes_load(&strip->visits[i]) + open);
+    lanes_store(&strip->visits[i], lanes_load(&strip->visits[i]) + lanes_only(inside, open));
     lanes_store(&strip->open[i], lanes_only(~ends, open));
 }
 
@@ -189,6 +189,7 @@ static void blend_blob(Strip *strip, const RasterBlob *blob, const RasterSetting
     const Real scale_u = (Real)(-blob->sign_u * M_LOG2E / 2), scale_v = (Real)(-blob->sign_v * M_LOG2E / 2);
     const Real opacity = (Real)blob->opacity, disc_edge = (Real)(-M_LOG2E / 2);
     const bool discs = settings->discs;
+    const Real first = (Real)from, end = (Real)to;
     from -= from % LANES;
     Lanes column = lanes_count_from((Real)from);
     for (int i = from; i < to; i += LANES, column += (Real)LANES) {
@@ -196,7 +197,7 @@ static void blend_blob(Strip *strip, const RasterBlob *blob, const RasterSetting
         Lanes u = u_first + u_step * column, v = v_first + v_step * column;
         Lanes log2_g = scale_u * u * u + scale_v * v * v;
         Lanes alpha = discs ? lanes_only(log2_g >= disc_edge, lanes_all(opacity)) : opacity * lanes_exp2(log2_g);
-        blend_lanes(strip, i, &blend, alpha);
+        blend_lanes(strip, i, &blend, alpha, (column >= first) & (column < end));
     }
 }
 

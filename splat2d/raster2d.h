@@ -85,7 +85,7 @@ RasterSettings raster_settings_lesson(void);  // the lesson's script: ends at T 
 // Maps that raster2d_draw() can fill besides, each (height, width) or NULL.
 typedef struct {
     float *transmittance; // T_end
-    int *visits;          // blobs that were evaluated there
+    int *visits;          // blobs whose reach it lies in, until it is opaque
 } RasterMaps;
 
 // Fills picture (3 channels, any size); values may leave [0, 1] where a shape is invalid or the background unattenuated.

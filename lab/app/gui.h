@@ -95,7 +95,7 @@ typedef struct {
 } GuiArea;
 GuiArea gui_area(const char *name, double width, double height);
 
-// Where each control was in the last whole frame, as the window system counts (where a mouse would have to go); false behind
+// Where each control of this frame is so far, as the window system counts (where a mouse would have to go); false behind
 // the last one. i: 0, 1, ...
 bool gui_place(int i, const char **label, GuiRect *place);
 

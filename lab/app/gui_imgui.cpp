@@ -36,7 +36,7 @@ struct State {
     bool smooth[GUI_PICTURE_COUNT] = {};
     Image8 atlas = {}; // the glyphs, headless
     int width = 0, height = 0;
-    std::vector<Place> places, shown; // of this frame, of the frame before
+    std::vector<Place> places; // of this frame
 };
 State gui;
 
@@ -203,7 +203,6 @@ void gui_frame_begin(int width, int height, double seconds) {
         io.DisplaySize = vec2(width, height);
         io.DeltaTime = static_cast<float>(seconds > 0 ? seconds : 1.0 / 60);
     }
-    gui.shown.swap(gui.places);
     gui.places.clear();
     ImGui::NewFrame();
     ImGui::PushFont(gui.fonts[GUI_BODY]);
@@ -430,9 +429,9 @@ GuiArea gui_area(const char *name, double width, double height) {
 }
 
 bool gui_place(int i, const char **label, GuiRect *place) {
-    if (i < 0 || i >= static_cast<int>(gui.shown.size())) return false;
-    *label = gui.shown[static_cast<size_t>(i)].label.c_str();
-    const GuiRect &r = gui.shown[static_cast<size_t>(i)].rect;
+    if (i < 0 || i >= static_cast<int>(gui.places.size())) return false;
+    *label = gui.places[static_cast<size_t>(i)].label.c_str();
+    const GuiRect &r = gui.places[static_cast<size_t>(i)].rect;
     double unit = gui.window ? window_unit(gui.window) : gui.density;
     *place = {r.x * unit, r.y * unit, r.width * unit, r.height * unit};
     return true;

@@ -116,12 +116,12 @@ static void show_trap(Widget *widget, GuiRect stage, GuiRect panel) {
 
 bool widget_frame(Widget *widget) {
     GuiRect whole = gui_screen();
+    if (widget->demo) widget_demo_keys(widget);
+    widget_keys(widget);
     double panel = widget->hides_panel ? 0 : fmin(PANEL_EMS * gui_em(), whole.width / 2);
     double strip = widget->demo ? DEMO_EMS * gui_em() : 0;
     GuiRect stage = {0, strip, whole.width - panel, whole.height - strip};
     GuiRect side = {stage.width, 0, panel, whole.height};
-    if (widget->demo) widget_demo_keys(widget);
-    widget_keys(widget);
     WidgetPage page = widget->page; // a button may turn it within the frame
     if (page == PAGE_BLOBS)
         show_blobs(widget, stage, side);
@@ -131,7 +131,8 @@ bool widget_frame(Widget *widget) {
     if (widget->is_asking) widget_demo_question(widget, stage);
     if (widget->film.is_on) show_film(widget, stage);
     widget_help(widget);
-    if (!gui_is_holding() || gui_mouse().released[GUI_LEFT]) history_record(&widget->history, &widget->scene, widget->active);
+    if (!gui_is_holding() || gui_mouse().released[GUI_LEFT])
+        history_record(&widget->history, &widget->scene, widget->active);
     return widget_write_state(widget) && widget_write_places(widget);
 }
 

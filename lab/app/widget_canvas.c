@@ -77,6 +77,8 @@ static void draw_canvas_edge(const Widget *widget) {
 static void draw_outline(const Widget *widget, const Blob *blob, double k, GuiColour colour, double width) {
     double xy[2 * ELLIPSE_POINTS];
     canvas2d_ellipse(&widget->canvas, blob, k, ELLIPSE_POINTS, xy);
+    if (widget->layer == LAYER_TRANSMITTANCE) // it is white where there is no blob
+        gui_draw_curve(xy, ELLIPSE_POINTS, true, faded(0x000000ff, 0.5 * (colour & 255) / 255), width + 2);
     gui_draw_curve(xy, ELLIPSE_POINTS, true, colour, width);
 }
 

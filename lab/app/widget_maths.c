@@ -17,11 +17,11 @@ void widget_maths(const Blob *blob) {
     formula_number(eigen.minor, minor, sizeof minor);
     // The product of the squared scales: the difference of two large products would lose the digits of a thin blob.
     formula_number(pow(blob->sigma_x * blob->sigma_y, 2), determinant, sizeof determinant);
-    gui_text(GUI_BODY, INK_QUIET, "λ");
+    gui_text(GUI_SMALL, INK_QUIET, "λ");
     gui_same_line(0.4);
     gui_text(GUI_MONO_SMALL, valid ? INK : BAD, "%s, %s", major, minor);
     gui_same_line(1);
-    gui_text(GUI_BODY, INK_QUIET, "det Σ");
+    gui_text(GUI_SMALL, INK_QUIET, "det Σ");
     gui_same_line(0.4);
     gui_text(GUI_MONO_SMALL, valid ? INK : BAD, "%s", determinant);
     gui_text(GUI_SMALL, valid ? GOOD : BAD,

@@ -164,8 +164,10 @@ void widget_panel(Widget *widget, GuiRect place) {
     gui_rule();
     readouts(widget, widget_active(widget));
     gui_rule();
-    if (widget_active(widget)) widget_maths(widget_active(widget));
-    gui_rule();
+    if (widget_active(widget)) {
+        widget_maths(widget_active(widget));
+        gui_rule();
+    }
     widget_mine_panel(widget);
     heading("The picture");
     switches(widget);

@@ -32,22 +32,28 @@ void widget_heat(double t, double rgb[3]) {
     for (int c = 0; c < 3; c++) rgb[c] = stops[i][c] + (place - i) * (stops[i + 1][c] - stops[i][c]);
 }
 
-static uint8_t byte_of(double value) { return (uint8_t)(255 * (value > 0 ? value < 1 ? value : 1 : 0) + 0.5); }
+static uint8_t byte_of(float value) { return (uint8_t)(255 * (value > 0 ? value < 1 ? value : 1 : 0) + 0.5f); }
+
+static void colours_to_bytes(const float *values, int count, uint8_t *bytes) {
+    for (int i = 0; i < count; i++) bytes[i] = byte_of(values[i]);
+}
 
 static void row_to_bytes(void *context, int row) {
     const Widget *widget = context;
     ptrdiff_t first = (ptrdiff_t)row * widget->picture.width;
     uint8_t *bytes = widget->picture8.bytes + 3 * first;
     int most = widget->scene.count > 0 ? widget->scene.count : 1;
+    if (widget->layer == LAYER_COLOUR) {
+        colours_to_bytes(widget->picture.values + 3 * first, 3 * widget->picture.width, bytes);
+        return;
+    }
     for (int x = 0; x < widget->picture.width; x++) {
         double rgb[3];
         if (widget->layer == LAYER_TRANSMITTANCE)
             rgb[0] = rgb[1] = rgb[2] = widget->maps.transmittance[first + x];
-        else if (widget->layer == LAYER_VISITS)
-            widget_heat((double)widget->maps.visits[first + x] / most, rgb);
         else
-            for (int c = 0; c < 3; c++) rgb[c] = widget->picture.values[3 * (first + x) + c];
-        for (int c = 0; c < 3; c++) bytes[3 * x + c] = byte_of(rgb[c]);
+            widget_heat((double)widget->maps.visits[first + x] / most, rgb);
+        for (int c = 0; c < 3; c++) bytes[3 * x + c] = byte_of((float)rgb[c]);
     }
 }
 

@@ -253,13 +253,13 @@ static void b_hides_the_panel_and_plus_enlarges_the_text(void **state) {
     double middle[2], small[2], large[2];
     session_place("canvas", middle, small);
     assert_true(session_has_place("Add"));
-    session_do("key b; mousemove 3 3"); // places are those of the frame before
+    session_do("key b");
     assert_false(session_has_place("Add"));
     session_place("canvas", middle, large);
     assert_true(large[0] == SESSION_WIDTH && small[0] < large[0]);
-    session_do("key b; mousemove 4 4");
+    session_do("key b");
     session_place("Add", middle, small);
-    session_do("key plus key plus; mousemove 3 3");
+    session_do("key plus key plus; mousemove 3 3"); // glyphs are made anew for the next frame
     session_place("Add", middle, large);
     assert_true(large[1] > 1.1 * small[1]);
     session_do("key minus key minus; mousemove 4 4");
