@@ -34,7 +34,7 @@ static size_t copied_bytes(int sh_degree) {
 }
 
 // The program itself with the OpenCL driver and its compiler, as measured with PoCL.
-static const size_t PROGRAM_BYTES = (size_t)256 << 20;
+static const size_t PROGRAM_BYTES = (size_t)240 << 20;
 
 // Photographs stand on the device as RGBA bytes, in all the sizes that training uses; those held out wait on the host as they
 // were read.
