@@ -118,31 +118,29 @@ static void make_child(const TrainOptions *o, int step, Gaussians *after, int i)
     }
 }
 
-// The plan's splats out of `before`; fresh ones get zeros instead where `zero_new` asks for it (Adam's moments).
-static Gaussians gather(const Plan *plan, const Gaussians *before, bool zero_new) {
-    Gaussians after = gaussians_create(plan->count, before->sh_degree);
+// Puts the plan's splats in the place of those of g; fresh ones get zeros instead where `zero_new` asks for it (Adam's moments).
+// Field by field, so that only one of them is there twice.
+static void gather(const Plan *plan, bool zero_new, Gaussians *g) {
     for (GaussianFieldId f = 0; f < FIELD_COUNT; f++) {
-        if (!before->field[f]) continue;
-        size_t bytes = (size_t)GAUSSIAN_FIELDS[f].width * sizeof(float);
+        if (!g->field[f]) continue;
+        size_t width = (size_t)GAUSSIAN_FIELDS[f].width;
+        float *after = mem_alloc((size_t)plan->count, width * sizeof *after);
         for (int i = 0; i < plan->count; i++)
             if (!zero_new || plan->origin[i] == ORIGIN_KEPT)
-                memcpy(gaussians_at(&after, f, i), gaussians_at(before, f, plan->source[i]), bytes);
+                memcpy(after + (size_t)i * width, gaussians_at(g, f, plan->source[i]), width * sizeof *after);
+        mem_free(g->field[f]);
+        g->field[f] = after;
     }
-    return after;
-}
-
-static void replace(Gaussians *old, Gaussians fresh) {
-    gaussians_destroy(old);
-    *old = fresh;
+    g->count = plan->count;
 }
 
 DensityChange density_control(const TrainOptions *o, int step, double scene_extent, bool prune_large,
                               TrainingState *s) {
     DensityChange change = {0};
     Plan plan = make_plan(o, scene_extent, prune_large, s, &change);
-    replace(&s->model, gather(&plan, &s->model, false));
-    replace(&s->m, gather(&plan, &s->m, true));
-    replace(&s->v, gather(&plan, &s->v, true));
+    gather(&plan, false, &s->model);
+    gather(&plan, true, &s->m);
+    gather(&plan, true, &s->v);
     size_t n = (size_t)plan.count;
     uint32_t *id = mem_alloc(n, sizeof *id);
     for (size_t i = 0; i < n; i++) {

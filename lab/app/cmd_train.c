@@ -311,10 +311,11 @@ static bool print_result(Run *run, bool interrupted) {
     bool logged = here == 0 || metrics_log_evaluation(&run->log, done, &e); // no new step, no new score
     if (run->options.json) {
         json_t *root = json_pack(
-            "{sf sf si si sf sf ss sI so sb so sf}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",
+            "{sf sf si si sf sf ss sI so sb so sf sf}", "psnr", e.psnr, "ssim", e.ssim, "splats", splats, "iterations",
             done, "seconds", seconds, "ms_per_iteration", ms, "model_sha256", sha256, "peak_rss_bytes",
             (json_int_t)mem_peak_bytes(), "model", json_text(run->folder.model), "interrupted", interrupted, "profile",
-            run_profile_json(&run->profile), "seconds_to_first_iteration", run->profile.first_step_s);
+            run_profile_json(&run->profile), "seconds_to_first_iteration", run->profile.first_step_s,
+            "cpu_seconds_to_first_iteration", run->profile.first_step_cpu_s);
         json_print(root);
         json_decref(root);
     } else {

@@ -22,14 +22,19 @@ static size_t working_bytes(void) {
     return screen + sorting + statistics + TILES_PER_SPLAT * tile;
 }
 
-// Per splat: what density control, saving and scoring copy: parameters and moments on the host, with id and statistics, and for the
-// pictures of a score the parameters once more on the device.
+// Per splat: what density control copies: parameters and moments on the host with id and statistics, and the widest field once more
+// while splats are put into their new order. Saving copies less, and scoring (parameters on the host and once more on the
+// device) too.
 static size_t copied_bytes(int sh_degree) {
-    return (3 + 1) * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree) + 3 * sizeof(int);
+    int widest = 0;
+    for (int f = 0; f < FIELD_COUNT; f++)
+        if (GAUSSIAN_FIELDS[f].sh_degree <= sh_degree && GAUSSIAN_FIELDS[f].width > widest)
+            widest = GAUSSIAN_FIELDS[f].width;
+    return (3 * (size_t)gaussians_floats_per_splat(sh_degree) + (size_t)widest) * sizeof(float) + 3 * sizeof(int);
 }
 
 // The program itself with the OpenCL driver and its compiler, as measured with PoCL.
-static const size_t PROGRAM_BYTES = (size_t)256 << 20;
+static const size_t PROGRAM_BYTES = (size_t)240 << 20;
 
 // Photographs stand on the device as RGBA bytes, in all the sizes that training uses; those held out wait on the host as they
 // were read.

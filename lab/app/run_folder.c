@@ -85,6 +85,7 @@ bool run_folder_load_options(const RunFolder *run, TrainOptions *options) {
                     run->folder, run->folder);
     if (!json_read(run->options, &root)) return false;
     *options = train_options_default();
+    options->coarse_levels = 0; // a file that does not say is of a run from before pictures could be halved
     bool done = json_get_text(root, "scene", run->options, &scene);
     if (done) {
         snprintf(options->scene, sizeof options->scene, "%s", scene);

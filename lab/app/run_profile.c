@@ -7,7 +7,10 @@
 #include <string.h>
 
 void run_profile_add_step(RunProfile *p, const StepReport *r) {
-    if (p->steps++ == 0) p->first_step_s = clock_process_age_seconds();
+    if (p->steps++ == 0) {
+        p->first_step_s = clock_process_age_seconds();
+        p->first_step_cpu_s = clock_cpu_seconds();
+    }
     p->seconds += r->seconds;
     p->splats += r->splats;
     p->visible += r->frame.visible;
@@ -55,5 +58,7 @@ void run_profile_print(const RunProfile *p) {
     json_object_foreach(stages, stage, value)
         printf("%-18s %9.3f %5.1f %%\n", stage, json_real_value(value), ms > 0 ? 100 * json_real_value(value) / ms : 0);
     printf("%-18s %9.3f\n", "all", ms);
+    printf("the first step was done %.2f s after the program's start (%.2f s of work)\n", p->first_step_s,
+           p->first_step_cpu_s);
     json_decref(profile);
 }

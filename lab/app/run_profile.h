@@ -16,6 +16,7 @@ typedef struct {
     double seconds;                             // all steps together, as the trainer took them
     double splats, visible, pairs;              // sums over the steps
     double first_step_s;                        // from the start of the process to the end of its first step
+    double first_step_cpu_s;                    // what its threads had worked by then, all together
     GpuStageTime stage[RUN_PROFILE_STAGES_MAX]; // sums, in the order of first use
     int stage_count;
 } RunProfile;

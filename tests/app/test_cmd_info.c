@@ -81,6 +81,14 @@ static void a_scene_is_counted(void **state) {
     assert_non_null(strstr(r.out, "24x16"));
 }
 
+static void a_run_that_says_nothing_of_halved_pictures_used_none(void **state) {
+    (void)state;
+    json_t *root = info_json(run, NULL);
+    assert_int_equal(integer(json_object_get(root, "options"), "coarse_levels"), 0);
+    assert_int_equal(integer(json_object_get(root, "options"), "iterations"), 7000);
+    json_decref(root);
+}
+
 static void training_memory_is_944_bytes_a_splat_of_degree_3_and_more(void **state) {
     (void)state;
     CommandResult r = command_run("info", scene, "--json", "--memory", "--splats", "1000", NULL);
@@ -166,6 +174,7 @@ static void the_photo_set_is_described(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_is_counted),
+        cmocka_unit_test(a_run_that_says_nothing_of_halved_pictures_used_none),
         cmocka_unit_test(training_memory_is_944_bytes_a_splat_of_degree_3_and_more),
         cmocka_unit_test(a_model_is_counted_and_measured),
         cmocka_unit_test(a_run_shows_its_model_and_its_options),
