@@ -10,8 +10,8 @@
 static const char VERSION[] = "0.1.0";
 
 // In the order in which a person meets them.
-static const Command *const COMMANDS[] = {&CMD_WIDGET, &CMD_DEMO, &CMD_FIT2D,  &CMD_SCENE, &CMD_INFO,
-                                          &CMD_TRAIN,  &CMD_EVAL, &CMD_RENDER, &CMD_BENCH, &CMD_DEVICES};
+static const Command *const COMMANDS[] = {&CMD_WIDGET, &CMD_DEMO,   &CMD_FIT2D, &CMD_SCENE,   &CMD_INFO,  &CMD_TRAIN,
+                                          &CMD_EVAL,   &CMD_RENDER, &CMD_BENCH, &CMD_DEVICES, &CMD_FIGURE};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0], EXIT_USAGE = 2 };
 
 static int print_help(void) {

@@ -22,6 +22,7 @@ typedef enum {
     RNG_SCENE_PATH = 8,   // sample scenes: a: view
     RNG_BENCH = 9,        // a: splat
     RNG_EWA_CLOUD = 13,   // points of one splat
+    RNG_FIGURE = 14,      // points of a drawing
 } RngPurpose;
 
 // A stream of numbers for one purpose and one (a, b); cheap to make, lives on the stack.
