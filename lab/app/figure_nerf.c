@@ -76,7 +76,7 @@ static bool draw(GuiRect place, json_t *numbers) {
         double g, gap = splat_fog_gap_largest(opacities[i], &g);
         json_array_append_new(gaps, json_pack("{sf sf sf}", "opacity", opacities[i], "largest_gap", gap, "at_g", g));
     }
-    for (int i = 2; i <= 6; i++) { // the worst of 1000 arguments in the decade below 10^-i
+    for (int i = 2; i <= 6; i++) { // the worst of 1000 arguments between 10^-i and twice that
         double worst[2] = {0, 0};
         for (int k = 0; k < 1000; k++) {
             float x = (float)(pow(10, -i) * (1 + k / 1000.0));
