@@ -12,7 +12,8 @@ static void draw_probe(double x, double y, Sym2 conic, double dx, double dy, Gui
     double m = sqrt(conic_mahalanobis2(conic, dx, dy));
     gui_draw_disc(x + dx, y + dy, 5, colour);
     gui_draw_ring(x + dx, y + dy, 5, PANEL_DEEP, 1.5);
-    gui_draw_text(GUI_SMALL, x + dx + 9, y + dy - 9, colour, "%.0f px, m = %.1f", hypot(dx, dy), m);
+    gui_draw_rect((GuiRect){x + dx + 8, y + dy - 10, 102, 21}, faded(PANEL_DEEP, 0.75), 4);
+    gui_draw_text(GUI_SMALL, x + dx + 12, y + dy - 9, colour, "%.0f px, m = %.1f", hypot(dx, dy), m);
 }
 
 static bool draw(GuiRect place, json_t *numbers) {

@@ -61,8 +61,8 @@ static bool draw(GuiRect place, json_t *numbers) {
         json_object_set_new(numbers, keys[side], json_pack("{sf}", "largest_part_along_q", worst));
     }
     gui_draw_text(GUI_SMALL, place.x + 20, place.y + 376, ACCENT_WARM,
-                  "on this line q is the wanted turn, at every length;");
-    gui_draw_text(GUI_SMALL, place.x + 418, place.y + 376, INK_QUIET, "arrows: where a step of descent goes");
+                  "on this line q is the wanted turn, at every length");
+    gui_draw_text(GUI_SMALL, place.x + 510, place.y + 376, INK_QUIET, "arrows: where a step of descent goes");
     return true;
 }
 

@@ -30,7 +30,7 @@ static bool draw(GuiRect place, json_t *numbers) {
     for (int l = 0; l <= DEGREE; l++)
         for (int m = -l; m <= l; m++) {
             int index = l * (l + 1) + m;
-            figure_globe(&sheet, WIDTH / 2 + m * SIDE - SIDE / 2, l * SIDE, SIDE, &eye, 0.46 * SIDE, 0.75, paint,
+            figure_globe(&sheet, WIDTH / 2 + m * SIDE - SIDE / 2, l * SIDE, SIDE, &eye, 0.46 * SIDE, 0.9, paint,
                          &index);
         }
     Image8 bytes = image8_from_float(&sheet);
