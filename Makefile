@@ -23,6 +23,8 @@ PACKAGES := gcc g++ make \
             libglfw3-dev libgl-dev libimgui-dev fonts-dejavu-core \
             pocl-opencl-icd \
             libcmocka-dev libgsl-dev openimageio-tools oclgrind clang-format python3 xvfb xauth xdotool libgl1-mesa-dri
+# For `make docs` alone.
+DOCS_PACKAGES := mkdocs mkdocs-material python3-pymdownx libjs-katex
 
 # ---- the build ----
 BUILD   := build/$(MODE)
@@ -141,7 +143,7 @@ compile_commands.json: Makefile $(ALL_SOURCES)
 # ---- what stands before it ----
 define INSTALL_PACKAGES
 missing=
-for p in $(PACKAGES); do
+for p in $(WANTED); do
     dpkg-query -W -f='$${db:Status-Status} ' $$p 2>/dev/null | grep -qw installed || missing="$$missing $$p"
 done
 [ -n "$$missing" ] || exit 0
@@ -162,8 +164,13 @@ $$sudo apt-get update -q && $$sudo env DEBIAN_FRONTEND=noninteractive apt-get in
 endef
 export INSTALL_PACKAGES
 
-.PHONY: deps
+.PHONY: deps deps-docs
+deps: WANTED := $(PACKAGES)
+deps-docs: WANTED := $(DOCS_PACKAGES)
 deps: ## install the Debian packages that are missing
+	@sh -c "$$INSTALL_PACKAGES"
+
+deps-docs: ## the same for `make docs`
 	@sh -c "$$INSTALL_PACKAGES"
 
 # `make deps all`, `make demo` and `make widget` compile nothing before the packages are there.
@@ -188,6 +195,11 @@ demo: deps all ## make a sample scene, train on it, show the result
 figures: all ## draw the pictures of the lesson pages in docs/ again
 	SPLATLAB=$(PROGRAM) docs/figures/draw docs/images
 
+.PHONY: docs
+docs: deps-docs ## make a site of docs/ that needs no network: build/site/index.html
+	mkdocs build --quiet --clean
+	@echo "Open $(CURDIR)/build/site/index.html"
+
 .PHONY: bench
 bench: all ## measure the speed of each stage, and how it grows with the work
 	$(PROGRAM) bench
@@ -206,7 +218,7 @@ endif
 
 .PHONY: test
 test: all $(TESTS) $(KERNELS_COMPILE) ## run every test (minutes)
-	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKER=$(WORKER) tests/run $(TESTS) tests/lint/selftest.py
+	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKER=$(WORKER) tests/run $(TESTS) tests/lint/selftest.py tests/lint/pages.py
 
 .PHONY: golden
 golden: all $(BUILD)/tests/app/test_cmd_demo ## take the demos' pictures as they are now for the good ones: look at them first

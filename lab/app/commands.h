@@ -5,6 +5,6 @@
 #include "lab/app/command_line.h"
 
 extern const Command CMD_WIDGET, CMD_DEMO, CMD_FIT2D, CMD_SCENE, CMD_INFO, CMD_TRAIN, CMD_EVAL, CMD_RENDER, CMD_BENCH,
-    CMD_DEVICES, CMD_EXERCISE;
+    CMD_DEVICES, CMD_EXERCISE, CMD_FIGURE;
 
 #endif

@@ -10,8 +10,9 @@
 static const char VERSION[] = "0.1.0";
 
 // In the order in which a person meets them.
-static const Command *const COMMANDS[] = {&CMD_WIDGET, &CMD_DEMO, &CMD_EXERCISE, &CMD_FIT2D, &CMD_SCENE,  &CMD_INFO,
-                                          &CMD_TRAIN,  &CMD_EVAL, &CMD_RENDER,   &CMD_BENCH, &CMD_DEVICES};
+static const Command *const COMMANDS[] = {&CMD_WIDGET, &CMD_DEMO,   &CMD_EXERCISE, &CMD_FIGURE,
+                                          &CMD_FIT2D,  &CMD_SCENE,  &CMD_INFO,     &CMD_TRAIN,
+                                          &CMD_EVAL,   &CMD_RENDER, &CMD_BENCH,    &CMD_DEVICES};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0], EXIT_USAGE = 2 };
 
 static int print_help(void) {

@@ -87,7 +87,6 @@ void trap_cone(TrapPage *page, GuiRect place) {
     gui_draw_text(GUI_SMALL, place.x, place.y + 1.3 * em, ACCENT_WARM, "raw entries");
     gui_draw_text(GUI_SMALL, place.x, place.y + 2.4 * em, GOOD, "factored");
     gui_draw_text(GUI_SMALL, place.x, place.y + 3.5 * em, BAD, "outside");
-    gui_draw_text(GUI_SMALL, place.x, place.y + place.height - em, INK_FAINT, "drag to turn");
     GuiMouse mouse = gui_mouse();
     bool over =
         mouse.x >= place.x && mouse.x < place.x + place.width && mouse.y >= place.y && mouse.y < place.y + place.height;

@@ -92,6 +92,7 @@ void trap_page_stage(TrapPage *page, GuiRect stage, int first_picture) {
     GuiRect plot = cone;
     plot.x += cone.width + gap;
     trap_cone(page, cone);
+    gui_draw_text(GUI_SMALL, cone.x, cone.y + cone.height - gui_em(), INK_FAINT, "drag to turn");
     trap_plot(page, plot);
     gui_panel_end();
 }
