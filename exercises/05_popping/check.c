@@ -224,14 +224,14 @@ static double first_of(Trial *t, const double *in, double yaw) {
     return idx[0];
 }
 
-static const double TURN = 0.6; // rad to either side; both splats stay in front
-enum { HALVINGS = 24 };         // 1.2 / 2^24 = 7e-8 rad
+static const double TURN = 0.9; // rad to either side; both splats stay in front
+enum { HALVINGS = 25 };         // 1.8 / 2^25 = 5e-8 rad
 
 // z = sin(yaw) x + cos(yaw) z0 is equal for both at tan(yaw) = (z1 - z2) / (x2 - x1).
 static void flip(Trial *t, const double *in) {
     double low = -TURN, high = TURN, at_low = first_of(t, in, low), at_high = first_of(t, in, high);
-    trial_equal(t, "who is first when the camera has turned by -0.6 rad on the spot", at_low, 1);
-    trial_equal(t, "who is first when it has turned by 0.6 rad: they have changed places", at_high, 0);
+    trial_equal(t, "who is first when the camera has turned by -0.9 rad on the spot", at_low, 1);
+    trial_equal(t, "who is first when it has turned by 0.9 rad: they have changed places", at_high, 0);
     for (int i = 0; i < HALVINGS; i++) {
         double middle = (low + high) / 2;
         if (first_of(t, in, middle) == 1)
