@@ -22,8 +22,8 @@ typedef enum {
     RNG_SCENE_PATH = 8,   // sample scenes: a: view
     RNG_BENCH = 9,        // a: splat
     RNG_EXERCISE = 10,    // a: claim, b: case
-    RNG_EWA_CLOUD = 11,   // points of one splat
-    RNG_FIGURE = 12,      // points of a drawing
+    RNG_EWA_CLOUD = 13,   // points of one splat
+    RNG_FIGURE = 14,      // points of a drawing
 } RngPurpose;
 
 // A stream of numbers for one purpose and one (a, b); cheap to make, lives on the stack.

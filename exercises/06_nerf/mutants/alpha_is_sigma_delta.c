@@ -1,0 +1,19 @@
+// alpha_is_sigma_delta.c - alpha = sigma delta is only the beginning of the series: it passes 1, and a piece cut in two
+// would hide more than the whole.
+#include "exercises/06_nerf/field.h"
+
+REAL alpha_from_sigma(REAL sigma, REAL delta) { return sigma * delta; }
+
+REAL sigma_from_alpha(REAL a, REAL delta) { return -log1p(-a) / delta; }
+
+void render_quadrature(const Field *f, int n, REAL out[3]) {
+    REAL delta = (f->far - f->near) / n, T = 1;
+    for (int c = 0; c < 3; c++) out[c] = 0;
+    for (int i = 0; i < n; i++) {
+        REAL sigma, rgb[3];
+        field_at(f, f->near + (i + (REAL)0.5) * delta, &sigma, rgb);
+        REAL alpha = alpha_from_sigma(sigma, delta);
+        for (int c = 0; c < 3; c++) out[c] += T * alpha * rgb[c];
+        T *= 1 - alpha;
+    }
+}

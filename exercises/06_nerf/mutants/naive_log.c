@@ -1,0 +1,19 @@
+// naive_log.c - log(1 - a) is written as it stands: for a small a the 1 swallows its digits. log1p computes log(1 + x)
+// without ever forming that 1.
+#include "exercises/06_nerf/field.h"
+
+REAL alpha_from_sigma(REAL sigma, REAL delta) { return -expm1(-sigma * delta); }
+
+REAL sigma_from_alpha(REAL a, REAL delta) { return -log(1 - a) / delta; }
+
+void render_quadrature(const Field *f, int n, REAL out[3]) {
+    REAL delta = (f->far - f->near) / n, T = 1;
+    for (int c = 0; c < 3; c++) out[c] = 0;
+    for (int i = 0; i < n; i++) {
+        REAL sigma, rgb[3];
+        field_at(f, f->near + (i + (REAL)0.5) * delta, &sigma, rgb);
+        REAL alpha = alpha_from_sigma(sigma, delta);
+        for (int c = 0; c < 3; c++) out[c] += T * alpha * rgb[c];
+        T *= 1 - alpha;
+    }
+}
