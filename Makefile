@@ -234,7 +234,7 @@ lint: $(KERNELS_COMPILE) ## check the house rules: floors, sizes, names, format;
 	@status=0; python3 tests/lint/lint.py || status=1; $(KERNELS_COMPILE) || status=1; exit $$status
 
 FORMATTED := $(filter-out $(EXERCISE_FILES),$(wildcard $(foreach folder,kernels lab/* splat2d splat3d \
-                 exercises exercises/* exercises/*/mutants tests/*,\
+                 exercises exercises/* exercises/*/mutants tests/* tests/exercises/*,\
                  $(folder)/*.c $(folder)/*.h $(folder)/*.cpp $(folder)/*.cl)))
 
 .PHONY: format

@@ -84,6 +84,12 @@ static bool allows_trace(const double *in) {
     return allows(in) && dS[0] == 1 && dS[1] == 0 && dS[2] == 0 && dS[3] == 1 && dS[4] == 0 && dS[5] == 1;
 }
 
+// After the shape comes a direction n of any length.
+static void draw_direction(Rng *rng, int k, double *in) {
+    draw_shape(rng, k + 2, in);
+    for (int i = 0; i < 3; i++) in[SHAPE + i] = k < 3 ? i == k : rng_normal(rng);
+}
+
 static void draw_ball_gradient(Rng *rng, int k, double *in) {
     draw_gradient(rng, k, in);
     in[Q + 1] = in[Q + 2] = in[Q];
@@ -180,6 +186,24 @@ static void trace(Trial *trial, const double *in) {
                (double[]){2 * exp(2 * logs[0]), 2 * exp(2 * logs[1]), 2 * exp(2 * logs[2])}, 3, scale);
     trial_near(trial, "dq for the trace of S: 0, no turn changes it", d.q, (double[]){0, 0, 0, 0}, 4,
                scale / norm_of(in, Q));
+}
+
+// n . S n is the sum of s_k^2 (r_k . n)^2: the reason why it is never negative. By log s_k each part gives twice itself.
+static void spread(Trial *trial, const double *in) {
+    const double *n = in + SHAPE;
+    double with_dS[SHAPE + STORED], want[3];
+    const double dS[STORED] = {n[0] * n[0], 2 * n[0] * n[1], 2 * n[0] * n[2],
+                               n[1] * n[1], 2 * n[1] * n[2], n[2] * n[2]};
+    memcpy(with_dS, in, SHAPE * sizeof *in);
+    memcpy(with_dS + SHAPE, dS, sizeof dS);
+    Gradient d = call_vjp(trial, with_dS);
+    Mat3 R = reference_rotation_forward(in);
+    for (int k = 0; k < 3; k++) {
+        double along = R.m[k] * n[0] + R.m[3 + k] * n[1] + R.m[6 + k] * n[2];
+        want[k] = 2 * exp(2 * in[Q + k]) * along * along;
+    }
+    trial_near(trial, "dlogs for n . S n, the variance along n: 2 s^2 (r . n)^2 for each scale s and its column r of R",
+               d.logs, want, 3, gradient_scale(with_dS));
 }
 
 static void gradient(Trial *trial, const double *in) {
@@ -305,6 +329,13 @@ static const Rung RUNGS[] = {
      .draw = draw_gradient,
      .allows = allows,
      .check = tangent},
+    {.name = "spread",
+     .claim = "the variance along n is a sum of squares, and each scale answers for its own part of it",
+     .count = SHAPE + 3,
+     .double_only = true,
+     .draw = draw_direction,
+     .allows = allows,
+     .check = spread},
     {.name = "gradient",
      .claim = "dq and dlogs are the derivatives, dS being by the stored numbers",
      .count = SHAPE + STORED,

@@ -22,6 +22,7 @@ enum {
     CAM = 18
 };
 
+enum { SIDE_MIN = 8 };               // px
 static const double MARGIN = 1e-3;   // world units that depths keep from the near plane
 static const double RATIO_MAX = 1.2; // |x/z|, |y/z|: beyond the picture's edges, too
 static const double DEPTH_MIN = 0.25, DEPTH_MAX = 40;
@@ -50,8 +51,8 @@ static Vec3 point_of(const double *numbers) { return vec3(numbers[0], numbers[1]
 
 // No square pixels, no square pictures, no centre in the middle.
 static void draw_camera(Rng *rng, double *in) {
-    in[WIDTH] = 8 + rng_below(rng, 1000);
-    in[HEIGHT] = 8 + rng_below(rng, 1000);
+    in[WIDTH] = SIDE_MIN + rng_below(rng, 1000);
+    in[HEIGHT] = SIDE_MIN + rng_below(rng, 1000);
     in[FX] = exp(rng_range(rng, log(50), log(1500)));
     in[FY] = in[FX] * rng_range(rng, 0.6, 1.6);
     in[CX] = in[WIDTH] * rng_range(rng, 0.2, 0.8);
@@ -65,8 +66,8 @@ static void draw_camera(Rng *rng, double *in) {
 static bool allows_camera(const double *in) {
     double length = 0;
     for (int i = 0; i < 4; i++) length += in[TURN + i] * in[TURN + i];
-    return in[WIDTH] >= 1 && in[HEIGHT] >= 1 && in[WIDTH] == floor(in[WIDTH]) && in[HEIGHT] == floor(in[HEIGHT]) &&
-           in[FX] >= 1 && in[FY] >= 1 && length > 1e-3;
+    return in[WIDTH] >= SIDE_MIN && in[HEIGHT] >= SIDE_MIN && in[WIDTH] == floor(in[WIDTH]) &&
+           in[HEIGHT] == floor(in[HEIGHT]) && in[FX] >= 1 && in[FY] >= 1 && length > 1e-3;
 }
 
 static void put_point(const double *in, Vec3 point_cam, double *point_world) {
@@ -128,7 +129,7 @@ static void draw_behind(Rng *rng, int k, double *in) {
     for (int i = 0; i < 4; i++) in[TURN + i] = i == 0;
     for (int i = 0; i < 3; i++) {
         if (k < 2) in[SHIFT + i] = 0;
-        if (k % 2 == 0 || i == 2) in[POINT + i] = -in[SHIFT + i];
+        if (k % 2 == 0 || i == 2) in[POINT + i] = 0 - in[SHIFT + i];
     }
 }
 static bool allows_behind(const double *in) { return allows_camera(in) && depth_of(in) <= near_depth() - MARGIN; }

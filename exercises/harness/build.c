@@ -78,6 +78,24 @@ static bool hash_folder(SHA2_CTX *hash, const char *folder, const char *ending) 
     return good;
 }
 
+// What an answer includes of the exercises, such as one's own answer to an earlier one. A file that is not there is left to the
+// compiler's message.
+static bool hash_included(SHA2_CTX *hash, const BuildJob *job) {
+    static const char BEGIN[] = "#include \"";
+    char *text, *name;
+    size_t size;
+    if (!file_read(job->source, &text, &size)) return false;
+    bool good = true;
+    for (name = text; good && (name = strstr(name, BEGIN));) {
+        name += strlen(BEGIN);
+        char *path = mem_format("%s/../%.*s", job->root, (int)strcspn(name, "\"\n"), name);
+        if (file_exists(path)) good = hash_file(hash, path);
+        mem_free(path);
+    }
+    mem_free(text);
+    return good;
+}
+
 // Everything that the result depends on: the texts (wrong variants include our solutions), the compiler and its flags.
 static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_DIGEST_STRING_LENGTH]) {
     SHA2_CTX hash;
@@ -85,7 +103,11 @@ static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_
     char *head = file_join(job->root, "exercise.h"), *calls = file_join(job->root, "calls.h"),
          *solutions = file_join(job->root, "solutions"), *beside = file_folder_of(job->calls);
     bool good = hash_file(&hash, job->source) && hash_file(&hash, job->calls) && hash_file(&hash, head) &&
+<<<<<<< HEAD
                 hash_file(&hash, calls) && hash_folder(&hash, solutions, ".c") && hash_folder(&hash, beside, ".h");
+=======
+                hash_file(&hash, calls) && hash_folder(&hash, solutions) && hash_included(&hash, job);
+>>>>>>> ex-b
     char *how = mem_format("%s %s %s", compiler, PRECISION_NAMES[job->precision], job->source);
     SHA256Update(&hash, (const uint8_t *)how, strlen(how));
     for (int i = 0; i < FLAG_COUNT; i++) SHA256Update(&hash, (const uint8_t *)FLAGS[i], strlen(FLAGS[i]) + 1);

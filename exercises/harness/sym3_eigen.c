@@ -1,5 +1,5 @@
 // sym3_eigen.c - Jacobi's method: turn the largest off-diagonal entry away until none is left (Golub and Van Loan, "Matrix
-// Computations", section 8.5). Slow beside a closed formula, but every step is a rotation, so nothing is lost to cancellation.
+// Computations", chapter 8). Slow beside a closed formula, but every step is a rotation, so nothing is lost to cancellation.
 #include "exercises/harness/sym3_eigen.h"
 
 #include <float.h>

@@ -20,7 +20,11 @@ static void append(char *text, size_t size, const char *more) {
     snprintf(text + have, size - have, "%s", more);
 }
 
+<<<<<<< HEAD
 enum { SHOWN_OF_ARRAY = 18 };
+=======
+enum { SHOWN_OF_ARRAY = 18 }; // a camera in full
+>>>>>>> ex-b
 
 // "theta = 0.5" or "bg = (0, 0, 0)".
 static void append_arg(char *text, size_t size, const Arg *arg) {

@@ -1,5 +1,5 @@
-// half_of_the_product.c - M4: all of it is half as large as it should be. S = M M^T has M twice, so with the full symmetric dS the gradient
-// is dM = 2 dS M, from both sides.
+// half_of_the_product.c - M4: a factor of 2 is missing. S = M M^T holds M twice, and each side has its part in the gradient: with the full
+// symmetric dS it is dM = 2 dS M.
 #include "exercises/exercise.h"
 
 #define cov3_vjp solution_cov3_vjp

@@ -1,5 +1,5 @@
-// seen_behind.c - what lies behind the camera is seen: x / z of a negative z is a number like any other, so the picture shows it upside
-// down; the sign of z has to be asked.
+// seen_behind.c - what lies before the near plane is taken for seen, even behind the camera: a negative z divides like any other number and
+// shows the world upside down, so z >= 0.2 has to be asked.
 #include "exercises/exercise.h"
 
 #define project solution_project
