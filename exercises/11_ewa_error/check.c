@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 12000, SEED_COUNT = 1000000 };
+enum { SAMPLES = 12000, LAW_SAMPLES = 5000, SEED_COUNT = 1000000 };
 static const double SIGMAS = 5;         // of the standard error: a right answer leaves them once in a million times
 static const double FLOAT_ERROR = 2e-4; // relative: what a sum of SAMPLES numbers loses in float
 
@@ -281,8 +281,10 @@ static void measure(Trial *t, const double *in) {
 }
 
 // ---- the laws ----
-// A ball, straight ahead of it the same at a size where EWA is exact, with the same draws. Scaled up, this has the noise
-// of the sample but not the error of EWA, so it is what the larger ball is compared with: common random numbers.
+// Two tricks keep the noise of the draws out. Common random numbers: a ball is compared with itself, drawn by the same seed at
+// a size where EWA is exact and then scaled up, which has the sample's noise but no error of EWA. Antithetic draws: each ball is
+// seen a second time with the world turned by half a turn about the mean, across the radius; that is the same ball with its
+// draws mirrored, and in the average of both what is odd in them cancels.
 
 static const double TINY = 1e-3;
 enum { LAW_SEED = 0, LAW_ANGLE, LAW_DIRECTION, LAW_FOCAL, LAW_DEPTH, LAW_NUMBERS };
@@ -302,19 +304,28 @@ static bool allows_law(const double *in) {
            in[LAW_DEPTH] >= 0.5 && in[LAW_DEPTH] <= 50;
 }
 
-static View ball_of(const double *in, double r) {
+static View ball_of(const double *in, double r, bool is_mirrored) {
     double off = tan(in[LAW_ANGLE] * M_PI / 180), turn = in[LAW_DIRECTION] * M_PI / 180, f = in[LAW_FOCAL];
     CameraCase c = {
         .width = 640, .height = 480, .fx = f, .fy = f, .cx = 320, .cy = 240, .quat = {1}, .splat_quat = {1}};
+    if (is_mirrored) c.quat[0] = 0, c.quat[1] = -sin(turn), c.quat[2] = cos(turn);
     c.ratio[0] = off * cos(turn), c.ratio[1] = off * sin(turn);
     c.depth = in[LAW_DEPTH];
     for (int i = 0; i < 3; i++) c.log_scale[i] = log(r * c.depth);
     return view_of(&c);
 }
 
+static Found call_ball(Trial *t, const double *in, double r) {
+    View plain = ball_of(in, r, false), mirrored = ball_of(in, r, true);
+    Found a = call(t, &plain, LAW_SAMPLES, in[LAW_SEED]), b = call(t, &mirrored, LAW_SAMPLES, in[LAW_SEED]);
+    return (Found){{(a.mean[0] + b.mean[0]) / 2, (a.mean[1] + b.mean[1]) / 2},
+                   {(a.cov.xx + b.cov.xx) / 2, (a.cov.xy + b.cov.xy) / 2, (a.cov.yy + b.cov.yy) / 2}};
+}
+
+// *outward: px by which the mean left the middle of the picture.
 static EwaError error_at(Trial *t, const double *in, const Found *tiny, double r, double *outward) {
-    View view = ball_of(in, r);
-    Found found = call(t, &view, SAMPLES, in[LAW_SEED]);
+    View view = ball_of(in, r, false);
+    Found found = call_ball(t, in, r);
     Vec3 at = centre_of(&view);
     double grown = r / TINY, centre[2] = {at.x + grown * (tiny->mean[0] - at.x), at.y + grown * (tiny->mean[1] - at.y)};
     Sym2 ewa = {grown * grown * tiny->cov.xx, grown * grown * tiny->cov.xy, grown * grown * tiny->cov.yy};
@@ -326,19 +337,17 @@ static EwaError error_at(Trial *t, const double *in, const Found *tiny, double r
 static const double LAW_R = 0.1, LAW_TOLERANCE = 0.15;
 
 static void drift(Trial *t, const double *in) {
-    View view = ball_of(in, TINY);
-    Found tiny = call(t, &view, SAMPLES, in[LAW_SEED]);
+    Found tiny = call_ball(t, in, TINY);
     double outward, want = LAW_R * sin(in[LAW_ANGLE] * M_PI / 180);
     EwaError error = error_at(t, in, &tiny, LAW_R, &outward);
     trial_within(t, "shift of a ball of r = sigma/z = 0.1 (less the noise of its draws): r sin(theta)", &error.shift,
-                 &want, 1, LAW_TOLERANCE * want + SIGMAS * LAW_R / sqrt(SAMPLES));
+                 &want, 1, LAW_TOLERANCE * want + SIGMAS * LAW_R / sqrt(LAW_SAMPLES));
     trial_at_most(t, "px that the mean moved towards the middle of the picture: it moves outward", -outward, 0);
 }
 
 static void slopes(Trial *t, const double *in) {
     static const double SHIFT_SLOPE = 1, COVARIANCE_SLOPE = 2;
-    View view = ball_of(in, TINY);
-    Found tiny = call(t, &view, SAMPLES, in[LAW_SEED]);
+    Found tiny = call_ball(t, in, TINY);
     double outward;
     EwaError small = error_at(t, in, &tiny, 0.05, &outward), large = error_at(t, in, &tiny, 0.2, &outward);
     double shift = log(large.shift / small.shift) / log(4), covariance = log(large.relative / small.relative) / log(4);
