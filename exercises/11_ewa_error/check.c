@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 12000, LAW_SAMPLES = 5000, SEED_COUNT = 1000000 };
+enum { SAMPLES = 6000, LAW_SAMPLES = 3000, SEED_COUNT = 1000000 };
 static const double SIGMAS = 5;         // of the standard error: a right answer leaves them once in a million times
 static const double FLOAT_ERROR = 2e-4; // relative: what a sum of SAMPLES numbers loses in float
 
