@@ -2,6 +2,7 @@
 //
 // Expected moments come from perspective.h, an integral and no draw; tolerances are multiples of the standard errors that
 // the same integral gives. The laws of the last two rungs are the ones that the page states.
+#include "exercises/exercise.h"
 #include "exercises/harness/blob_picture.h"
 #include "exercises/harness/camera_case.h"
 #include "exercises/harness/catalogue.h"
@@ -10,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 12000, SEED_COUNT = 1000000 };
+enum { SAMPLES = 6000, LAW_SAMPLES = 3000, SEED_COUNT = 1000000 };
 static const double SIGMAS = 5;         // of the standard error: a right answer leaves them once in a million times
 static const double FLOAT_ERROR = 2e-4; // relative: what a sum of SAMPLES numbers loses in float
 
@@ -121,16 +122,59 @@ static void draw_moderate(Rng *rng, int k, double *in) {
 
 static bool allows_moderate(const double *in) { return is_case(in, 0.1); }
 
-static void repeats(Trial *t, const double *in) {
-    CameraCase c = case_of(in);
-    View view = view_of(&c);
-    enum { FEW = 20 };
-    Found first = call(t, &view, FEW, in[SEED]), other = call(t, &view, FEW, in[SEED] + 1);
-    Found again = call(t, &view, FEW, in[SEED]);
-    trial_equal(t, "mean[0], called again with the same seed", again.mean[0], first.mean[0]);
-    trial_equal(t, "cov[0], called again with the same seed", again.cov.xx, first.cov.xx);
-    trial_equal(t, "another seed gives the very same mean (1: it does)",
-                other.mean[0] == first.mean[0] && other.mean[1] == first.mean[1], 0);
+// A tiny ball, at distance 1 from three cameras that look along the three axes. Whatever root L of r^2 I is taken, it is r
+// times a rotation, so the sum of all three pictures' variances is that of the draws themselves: an exact number.
+enum { DRAWS_SEED, DRAWS_COUNT, DRAWS_NUMBERS };
+enum { DRAWS_MAX = 400 };
+
+static void draw_draws(Rng *rng, int k, double *in) {
+    in[DRAWS_SEED] = 1 + rng_below(rng, SEED_COUNT);
+    in[DRAWS_COUNT] = 2 + (k % 2 ? rng_below(rng, 5) : rng_below(rng, DRAWS_MAX - 2));
+}
+
+static bool allows_draws(const double *in) {
+    return in[DRAWS_SEED] >= 0 && in[DRAWS_SEED] <= SEED_COUNT && in[DRAWS_SEED] == floor(in[DRAWS_SEED]) &&
+           in[DRAWS_COUNT] >= 2 && in[DRAWS_COUNT] <= DRAWS_MAX && in[DRAWS_COUNT] == floor(in[DRAWS_COUNT]);
+}
+
+// Of the draws that count: |mean|^2, and the mean of |z - mean|^2.
+static void moments_of_draws(unsigned long seed, int n, double *mean2, double *spread) {
+    double sum[3] = {0}, square = 0;
+    int kept = 0;
+    for (unsigned long i = 0; kept < n; i++) {
+        double z[3];
+        draw_normals(seed, i, z);
+        double z2 = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
+        if (z2 > PERSPECTIVE_CUT * PERSPECTIVE_CUT) continue;
+        for (int k = 0; k < 3; k++) sum[k] += z[k] / n;
+        square += z2 / n;
+        kept++;
+    }
+    *mean2 = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+    *spread = square - *mean2;
+}
+
+static void draws(Trial *t, const double *in) {
+    static const Mat3 LOOKS[3] = {
+        {{1, 0, 0, 0, 1, 0, 0, 0, 1}}, {{0, 1, 0, 0, 0, 1, 1, 0, 0}}, {{0, 0, 1, 1, 0, 0, 0, 1, 0}}};
+    static const double R = 1e-6;
+    double mean2, spread, my_mean2 = 0, my_spread = 0, n = in[DRAWS_COUNT];
+    moments_of_draws((unsigned long)in[DRAWS_SEED], (int)n, &mean2, &spread);
+    for (int k = 0; k < 3; k++) {
+        View v = {.camera = {.width = 2, .height = 2, .fx = 1, .fy = 1, .rotation = LOOKS[k]}, .mean_cam = {0, 0, 1}};
+        Mat3 to_world = mat3_transpose(&LOOKS[k]);
+        v.mean_world = mat3_apply(&to_world, v.mean_cam);
+        v.world = (Sym3){.xx = R * R, .yy = R * R, .zz = R * R};
+        Found found = call(t, &v, n, in[DRAWS_SEED]);
+        my_mean2 += (found.mean[0] * found.mean[0] + found.mean[1] * found.mean[1]) / (2 * R * R);
+        my_spread += (found.cov.xx + found.cov.yy) / (2 * R * R);
+    }
+    trial_near1(
+        t, "the square of `mean` of a tiny ball, over three views along the axes: that of the n first draws that count",
+        my_mean2, mean2, 1 + mean2);
+    trial_near1(t,
+                "the trace of `cov` of a tiny ball, over three views along the axes: that of the draws, over 0.917820",
+                my_spread, spread / perspective_cut_factor(), 1 + spread);
 }
 
 // Within SIGMAS standard errors, each number by its own.
@@ -281,8 +325,10 @@ static void measure(Trial *t, const double *in) {
 }
 
 // ---- the laws ----
-// A ball, straight ahead of it the same at a size where EWA is exact, with the same draws. Scaled up, this has the noise
-// of the sample but not the error of EWA, so it is what the larger ball is compared with: common random numbers.
+// Two tricks keep the noise of the draws out. Common random numbers: a ball is compared with itself, drawn by the same seed at
+// a size where EWA is exact and then scaled up, which has the sample's noise but no error of EWA. Antithetic draws: each ball is
+// seen a second time with the world turned by half a turn about the mean, across the radius; that is the same ball with its
+// draws mirrored, and in the average of both what is odd in them cancels.
 
 static const double TINY = 1e-3;
 enum { LAW_SEED = 0, LAW_ANGLE, LAW_DIRECTION, LAW_FOCAL, LAW_DEPTH, LAW_NUMBERS };
@@ -302,19 +348,28 @@ static bool allows_law(const double *in) {
            in[LAW_DEPTH] >= 0.5 && in[LAW_DEPTH] <= 50;
 }
 
-static View ball_of(const double *in, double r) {
+static View ball_of(const double *in, double r, bool is_mirrored) {
     double off = tan(in[LAW_ANGLE] * M_PI / 180), turn = in[LAW_DIRECTION] * M_PI / 180, f = in[LAW_FOCAL];
     CameraCase c = {
         .width = 640, .height = 480, .fx = f, .fy = f, .cx = 320, .cy = 240, .quat = {1}, .splat_quat = {1}};
+    if (is_mirrored) c.quat[0] = 0, c.quat[1] = -sin(turn), c.quat[2] = cos(turn);
     c.ratio[0] = off * cos(turn), c.ratio[1] = off * sin(turn);
     c.depth = in[LAW_DEPTH];
     for (int i = 0; i < 3; i++) c.log_scale[i] = log(r * c.depth);
     return view_of(&c);
 }
 
+static Found call_ball(Trial *t, const double *in, double r) {
+    View plain = ball_of(in, r, false), mirrored = ball_of(in, r, true);
+    Found a = call(t, &plain, LAW_SAMPLES, in[LAW_SEED]), b = call(t, &mirrored, LAW_SAMPLES, in[LAW_SEED]);
+    return (Found){{(a.mean[0] + b.mean[0]) / 2, (a.mean[1] + b.mean[1]) / 2},
+                   {(a.cov.xx + b.cov.xx) / 2, (a.cov.xy + b.cov.xy) / 2, (a.cov.yy + b.cov.yy) / 2}};
+}
+
+// *outward: px by which the mean left the middle of the picture.
 static EwaError error_at(Trial *t, const double *in, const Found *tiny, double r, double *outward) {
-    View view = ball_of(in, r);
-    Found found = call(t, &view, SAMPLES, in[LAW_SEED]);
+    View view = ball_of(in, r, false);
+    Found found = call_ball(t, in, r);
     Vec3 at = centre_of(&view);
     double grown = r / TINY, centre[2] = {at.x + grown * (tiny->mean[0] - at.x), at.y + grown * (tiny->mean[1] - at.y)};
     Sym2 ewa = {grown * grown * tiny->cov.xx, grown * grown * tiny->cov.xy, grown * grown * tiny->cov.yy};
@@ -326,19 +381,17 @@ static EwaError error_at(Trial *t, const double *in, const Found *tiny, double r
 static const double LAW_R = 0.1, LAW_TOLERANCE = 0.15;
 
 static void drift(Trial *t, const double *in) {
-    View view = ball_of(in, TINY);
-    Found tiny = call(t, &view, SAMPLES, in[LAW_SEED]);
+    Found tiny = call_ball(t, in, TINY);
     double outward, want = LAW_R * sin(in[LAW_ANGLE] * M_PI / 180);
     EwaError error = error_at(t, in, &tiny, LAW_R, &outward);
     trial_within(t, "shift of a ball of r = sigma/z = 0.1 (less the noise of its draws): r sin(theta)", &error.shift,
-                 &want, 1, LAW_TOLERANCE * want + SIGMAS * LAW_R / sqrt(SAMPLES));
+                 &want, 1, LAW_TOLERANCE * want + SIGMAS * LAW_R / sqrt(LAW_SAMPLES));
     trial_at_most(t, "px that the mean moved towards the middle of the picture: it moves outward", -outward, 0);
 }
 
 static void slopes(Trial *t, const double *in) {
     static const double SHIFT_SLOPE = 1, COVARIANCE_SLOPE = 2;
-    View view = ball_of(in, TINY);
-    Found tiny = call(t, &view, SAMPLES, in[LAW_SEED]);
+    Found tiny = call_ball(t, in, TINY);
     double outward;
     EwaError small = error_at(t, in, &tiny, 0.05, &outward), large = error_at(t, in, &tiny, 0.2, &outward);
     double shift = log(large.shift / small.shift) / log(4), covariance = log(large.relative / small.relative) / log(4);
@@ -380,13 +433,13 @@ static const Rung RUNGS[] = {
      .draw = draw_point,
      .allows = allows_point,
      .check = point},
-    {.name = "repeats",
-     .claim = "a seed gives the same numbers each time, another seed others",
-     .cases = 2,
-     .count = NUMBERS,
-     .draw = draw_moderate,
-     .allows = allows_moderate,
-     .check = repeats},
+    {.name = "draws",
+     .claim = "the first n draws inside the cut count, each once; the covariance is over n and over 0.917820",
+     .cases = 4,
+     .count = DRAWS_NUMBERS,
+     .draw = draw_draws,
+     .allows = allows_draws,
+     .check = draws},
     {.name = "small",
      .claim = "a small splat far away has the mean and covariance that EWA says",
      .cases = 1,

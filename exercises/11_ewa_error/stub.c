@@ -3,7 +3,7 @@
 
 // Draws n points from the Gaussian of mean mu and covariance S3 = { xx, xy, xz, yy, yz, zz } (both in the world), cut at 3
 // standard deviations; projects each of them; mean: of the pixels, px; cov = { xx, xy, yy }: theirs over n, divided by
-// 0.917822. draw_normals(seed, i, z) gives three normal numbers for i = 0, 1, 2, ...; those outside of the cut are skipped.
+// 0.917820. draw_normals(seed, i, z) gives three normal numbers for i = 0, 1, 2, ...; those outside of the cut are skipped.
 void mc_project(const Cam *c, const REAL mu[3], const REAL S3[6], int n, unsigned long seed, REAL mean[2],
                 REAL cov[3]) {
     NOT_STARTED; // delete this line, and write mean and cov

@@ -312,6 +312,47 @@ static void so_does_the_depth_that_is_shown_as_a_colour(void **state) {
     for_each_scene(check_depth_gradient);
 }
 
+// J W Sigma W^T J^T as full matrices, where the mean is well inside the picture.
+static void the_shape_alone_is_the_product_of_five_matrices(void **state) {
+    (void)state;
+    Rng rng = rng_at(11, RNG_TEST, 0, 0);
+    for (int n = 0; n < 50; n++) {
+        Scene scene = scene_create((uint32_t)n + 1);
+        const Camera *camera = &scene.camera;
+        Vec3 c = vec3(rng_range(&rng, -0.2, 0.2), rng_range(&rng, -0.2, 0.2), rng_range(&rng, 0.8, 3));
+        const double *log_scale = gaussiansd_at(&scene.model, FIELD_LOG_SCALE, 0);
+        Sym3 s = reference_covariance_forward(log_scale, gaussiansd_at(&scene.model, FIELD_QUAT, 0));
+        Mat3 sigma = {{s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz}};
+        Mat3 j = {{camera->fx / c.z, 0, -camera->fx * c.x / (c.z * c.z), //
+                   0, camera->fy / c.z, -camera->fy * c.y / (c.z * c.z), 0, 0, 0}};
+        Mat3 map = mat3_multiply(&j, &camera->rotation), back = mat3_transpose(&map);
+        Mat3 product = mat3_multiply(&map, &sigma);
+        product = mat3_multiply(&product, &back);
+        Sym2 projected = reference_ewa_forward(camera, c, s);
+        double trace = projected.xx + projected.yy;
+        support_near(projected.xx / trace, product.m[0] / trace, 1e-14, "xx");
+        support_near(projected.xy / trace, product.m[1] / trace, 1e-14, "xy");
+        support_near(projected.yy / trace, product.m[4] / trace, 1e-14, "yy");
+        gaussiansd_destroy(&scene.model);
+    }
+}
+
+static void gradients_of_the_shape_alone_are_added_to_what_is_there(void **state) {
+    (void)state;
+    Scene scene = scene_create(1);
+    Vec3 c = vec3(0.1, -0.2, 2), once = {0}, twice = {0};
+    Sym3 s = {.xx = 1, .xy = 0.2, .xz = -0.1, .yy = 2, .yz = 0.3, .zz = 0.5}, d_once = {0}, d_twice = {0};
+    Sym2 d = {0.3, -0.7, 1.1};
+    reference_ewa_backward(&scene.camera, c, s, d, &once, &d_once);
+    for (int i = 0; i < 2; i++) reference_ewa_backward(&scene.camera, c, s, d, &twice, &d_twice);
+    assert_true(once.x != 0 && once.y != 0 && once.z != 0 && d_once.xy != 0);
+    support_near(twice.x, 2 * once.x, 0, "x");
+    support_near(twice.z, 2 * once.z, 0, "z");
+    support_near(d_twice.xy, 2 * d_once.xy, 0, "xy");
+    support_near(d_twice.zz, 2 * d_once.zz, 0, "zz");
+    gaussiansd_destroy(&scene.model);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_falls_where_the_camera_projects_it),
@@ -326,6 +367,8 @@ int main(void) {
         cmocka_unit_test(so_does_the_way_through_the_shape_alone),
         cmocka_unit_test(so_does_it_where_the_frustum_clamps),
         cmocka_unit_test(so_does_the_depth_that_is_shown_as_a_colour),
+        cmocka_unit_test(the_shape_alone_is_the_product_of_five_matrices),
+        cmocka_unit_test(gradients_of_the_shape_alone_are_added_to_what_is_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
