@@ -44,7 +44,7 @@ static void note_call(Trial *t, const char *function, const Arg *args, int count
     append(t->called, sizeof t->called, "(");
     bool first = true;
     for (int k = 0; k < count; k++) {
-        if (args[k].is_output) continue;
+        if (args[k].is_output && !args[k].is_updated) continue;
         if (!first) append(t->called, sizeof t->called, ", ");
         append_arg(t->called, sizeof t->called, &args[k]);
         first = false;
