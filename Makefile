@@ -57,8 +57,8 @@ objects_of = $(patsubst %,$(BUILD)/%.o,$(1))
 # The workers run what students write: small programs of their own, one for C and one for kernels, never with a sanitizer, which
 # their limits would not bear.
 WORKER_PARTS          := $(patsubst %,exercises/harness/worker_%.c,channel guard number)
-WORKER_SOURCES        := exercises/harness/worker.c $(WORKER_PARTS)
-KERNEL_WORKER_SOURCES := exercises/harness/kernel_worker.c exercises/harness/kernel_scan.c $(WORKER_PARTS)
+WORKER_SOURCES        := exercises/harness/worker.c exercises/harness/worker_fence.c $(WORKER_PARTS)
+KERNEL_WORKER_SOURCES := $(patsubst %,exercises/harness/%.c,kernel_worker kernel_scan oclgrind_report) $(WORKER_PARTS)
 WORKER                := $(BUILD)/splatlab-worker
 KERNEL_WORKER         := $(BUILD)/splatlab-kernel-worker
 

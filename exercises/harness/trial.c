@@ -20,18 +20,19 @@ static void append(char *text, size_t size, const char *more) {
     snprintf(text + have, size - have, "%s", more);
 }
 
-enum { SHOWN_OF_ARRAY = 16 };
+enum { WHOLE_ARRAY = 16, SHOWN_OF_LONGER = 4 };
 
 // "theta = 0.5" or "bg = (0, 0, 0)".
 static void append_arg(char *text, size_t size, const Arg *arg) {
     char number[40];
     append(text, size, arg->name);
     append(text, size, arg->count == 1 ? " = " : " = (");
-    for (int i = 0; i < arg->count && i < SHOWN_OF_ARRAY; i++) {
-        snprintf(number, sizeof number, "%s%.9g", i ? ", " : "", arg->numbers[i]);
+    int shown = arg->count <= WHOLE_ARRAY ? arg->count : SHOWN_OF_LONGER;
+    for (int i = 0; i < shown; i++) {
+        snprintf(number, sizeof number, "%s%.7g", i ? ", " : "", arg->numbers[i]);
         append(text, size, number);
     }
-    if (arg->count > SHOWN_OF_ARRAY) {
+    if (arg->count > shown) {
         snprintf(number, sizeof number, ", ... %d numbers", arg->count);
         append(text, size, number);
     }

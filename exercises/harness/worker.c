@@ -4,6 +4,7 @@
 // error are the student's; the judge is spoken to through the socket WIRE_FD alone.
 #include "exercises/harness/wire.h"
 #include "exercises/harness/worker_channel.h"
+#include "exercises/harness/worker_fence.h"
 #include "exercises/harness/worker_guard.h"
 #include "exercises/harness/worker_number.h"
 
@@ -183,6 +184,7 @@ int main(int argc, char **argv) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     worker_guard_limits(atoi(argv[2]), atoi(argv[3]), 1);
     worker_guard_signals();
+    worker_fence_raise(); // before the library, whose constructors run in dlopen()
     void *handle = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
     if (!handle) refuse(dlerror());
     const int *real_bytes = dlsym(handle, "REAL_BYTES");
