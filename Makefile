@@ -52,16 +52,20 @@ LIBRARIES := -lOpenImageIO -lOpenImageIO_Util -lOpenCL -ljansson -lpopt -lmd -lz
              -limgui -lstb -lglfw -lGL -lstdc++ -lm
 TEST_LIBRARIES := -lcmocka -lgsl -lgslcblas
 
-# exercises/01_cov2/ -> exercises/01_cov2/cov2.c
-exercise_file = $(1)$(shell basename $(1) | sed 's/^[0-9]*_//').c
+# exercises/01_cov2/ .c -> exercises/01_cov2/cov2.c
+exercise_file = $(1)$(shell basename $(1) | sed 's/^[0-9]*_//')$(2)
 objects_of = $(patsubst %,$(BUILD)/%.o,$(1))
 
-# The worker runs what students write: a small program of its own, never with a sanitizer, which its limits would not bear.
-WORKER_SOURCES := exercises/harness/worker.c exercises/harness/worker_guard.c
-WORKER         := $(BUILD)/splatlab-worker
+# The workers run what students write: small programs of their own, one for C and one for kernels, never with a sanitizer, which
+# their limits would not bear.
+WORKER_PARTS          := $(patsubst %,exercises/harness/worker_%.c,channel guard number)
+WORKER_SOURCES        := exercises/harness/worker.c exercises/harness/worker_fence.c $(WORKER_PARTS)
+KERNEL_WORKER_SOURCES := $(patsubst %,exercises/harness/%.c,kernel_worker kernel_scan oclgrind_report) $(WORKER_PARTS)
+WORKER                := $(BUILD)/splatlab-worker
+KERNEL_WORKER         := $(BUILD)/splatlab-kernel-worker
 
 SOURCES := $(wildcard lab/base/*.c lab/io/*.c lab/io/*.cpp lab/gpu/*.c splat2d/*.c splat3d/*.c \
-           exercises/*/check.c lab/app/*.c lab/app/*.cpp) $(filter-out $(WORKER_SOURCES),$(wildcard exercises/harness/*.c))
+           exercises/*/check.c lab/app/*.c lab/app/*.cpp) $(filter-out $(WORKER_SOURCES) exercises/harness/kernel_worker.c,$(wildcard exercises/harness/*.c))
 OBJECTS := $(call objects_of,$(SOURCES))
 
 # tests/FOLDER/test_NAME.c: one cmocka program each; helpers stand in tests/support.
@@ -70,11 +74,11 @@ TESTS           := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 SUPPORT_SOURCES := $(wildcard tests/support/*.c)
 KERNELS_COMPILE := $(BUILD)/tests/lint/kernels_compile
 
-ALL_SOURCES := $(SOURCES) $(WORKER_SOURCES) $(TEST_SOURCES) $(SUPPORT_SOURCES) tests/lint/kernels_compile.c
+ALL_SOURCES := $(sort $(SOURCES) $(WORKER_SOURCES) $(KERNEL_WORKER_SOURCES)) $(TEST_SOURCES) $(SUPPORT_SOURCES) tests/lint/kernels_compile.c
 ALL_OBJECTS := $(call objects_of,$(ALL_SOURCES))
 
 .PHONY: all
-all: $(PROGRAM) $(WORKER) compile_commands.json ## build ./splatlab
+all: $(PROGRAM) $(WORKER) $(KERNEL_WORKER) compile_commands.json ## build ./splatlab
 
 $(PROGRAM): $(OBJECTS)
 	$(LINK) $(LIBRARIES)
@@ -84,11 +88,22 @@ $(WORKER_OBJECTS): OBJECT_FLAGS := -fno-sanitize=all
 $(WORKER): $(WORKER_OBJECTS)
 	$(SAY) "LINK $@"; $(CC) -rdynamic -o $@ $^ -lm
 
+# lab/gpu and lab/base once more, without a sanitizer.
+KERNEL_WORKER_OBJECTS := $(patsubst %,$(BUILD)/plain/%.o,$(KERNEL_WORKER_SOURCES) $(wildcard lab/gpu/*.c lab/base/*.c))
+$(BUILD)/plain/%.c.o: OBJECT_FLAGS := -fno-sanitize=all
+$(BUILD)/plain/%.c.o: %.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(SAY) "CC   $<"; $(CC) $(C_FLAGS) $(OBJECT_FLAGS) -MMD -MP -c -o $@ $<
+$(KERNEL_WORKER): $(KERNEL_WORKER_OBJECTS)
+	$(SAY) "LINK $@"; $(CC) -pthread -o $@ $^ -lOpenCL -lm
+-include $(KERNEL_WORKER_OBJECTS:.o=.d)
+
 # A person's files, laid out from the stubs; never overwritten.
-EXERCISE_FILES := $(foreach stub,$(wildcard exercises/*/stub.c),$(call exercise_file,$(dir $(stub))))
+EXERCISE_FILES := $(foreach stub,$(wildcard exercises/*/stub.c exercises/*/stub.cl),\
+                    $(call exercise_file,$(dir $(stub)),$(suffix $(stub))))
 all: $(EXERCISE_FILES)
 $(EXERCISE_FILES):
-	@cp -n $(@D)/stub.c $@
+	@cp -n $(@D)/stub$(suffix $@) $@
 
 $(BUILD)/%.c.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)

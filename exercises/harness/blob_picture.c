@@ -4,7 +4,7 @@
 #include <math.h>
 
 enum { SIDE = 160 };
-static const double RING = 0.06;
+static const double RING = 0.06, FLAT = 1e-6;
 
 double blob_picture_fit(Sym2 covariance) {
     double major = sym2_eigen(covariance).major;
@@ -14,6 +14,12 @@ double blob_picture_fit(Sym2 covariance) {
 ImageF blob_picture(Sym2 covariance, double half_width) {
     ImageF image = imagef_create(SIDE, SIDE, 3);
     Sym2 conic;
+    Eigen2 eigen = sym2_eigen(covariance);
+    if (eigen.minor >= -FLAT * eigen.major) { // a blob without width is a line: as thin as a pixel, so that it is seen
+        double pixel = half_width / SIDE;
+        covariance.xx += pixel * pixel;
+        covariance.yy += pixel * pixel;
+    }
     bool is_valid = covariance_conic(covariance, &conic) && covariance.xx > 0;
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {

@@ -1,6 +1,7 @@
 // build.c - the compiler as a child process; results lie in the cache folder under the hash of all they were made from.
 #include "exercises/harness/build.h"
 
+#include "exercises/harness/worker_process.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "lab/base/parallel.h"
@@ -78,6 +79,7 @@ static bool hash_folder(SHA2_CTX *hash, const char *folder, const char *ending) 
     return good;
 }
 
+<<<<<<< HEAD
 // What an answer includes of the exercises, such as one's own answer to an earlier one. A file that is not there is left to the
 // compiler's message.
 static bool hash_included(SHA2_CTX *hash, const BuildJob *job) {
@@ -95,11 +97,17 @@ static bool hash_included(SHA2_CTX *hash, const BuildJob *job) {
     mem_free(text);
     return good;
 }
+=======
+// ---- what it is made from ----
+
+static bool is_kernel(const BuildJob *job) { return file_has_ending(job->source, ".cl"); }
+>>>>>>> harness
 
 // Everything that the result depends on: the texts (wrong variants include our solutions), the compiler and its flags.
 static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_DIGEST_STRING_LENGTH]) {
     SHA2_CTX hash;
     SHA256Init(&hash);
+<<<<<<< HEAD
     char *head = file_join(job->root, "exercise.h"), *calls = file_join(job->root, "calls.h"),
          *solutions = file_join(job->root, "solutions"), *beside = file_folder_of(job->calls);
     bool good = hash_file(&hash, job->source) && hash_file(&hash, job->calls) && hash_file(&hash, head) &&
@@ -108,6 +116,13 @@ static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_
 =======
                 hash_file(&hash, calls) && hash_folder(&hash, solutions) && hash_included(&hash, job);
 >>>>>>> ex-b
+=======
+    char *head = file_join(job->root, is_kernel(job) ? "kernel_layer.cl" : "exercise.h"),
+         *calls = file_join(job->root, "calls.h"), *solutions = file_join(job->root, "solutions");
+    bool good = hash_file(&hash, job->source) && hash_file(&hash, head);
+    if (!is_kernel(job))
+        good = good && hash_file(&hash, job->calls) && hash_file(&hash, calls) && hash_folder(&hash, solutions);
+>>>>>>> harness
     char *how = mem_format("%s %s %s", compiler, PRECISION_NAMES[job->precision], job->source);
     SHA256Update(&hash, (const uint8_t *)how, strlen(how));
     for (int i = 0; i < FLAG_COUNT; i++) SHA256Update(&hash, (const uint8_t *)FLAGS[i], strlen(FLAGS[i]) + 1);
@@ -120,47 +135,87 @@ static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_
     return good;
 }
 
-// Runs the compiler; what it prints goes to `printed`. *made: it said yes.
-static bool run_compiler(const BuildJob *job, const char *compiler, const char *library, const char *printed,
-                         bool *made) {
-    char *parent = file_join(job->root, ".."), *real = mem_format("-DREAL=%s", PRECISION_NAMES[job->precision]);
-    const char *argv[FLAG_COUNT + 10] = {compiler};
-    int n = 1;
-    for (int i = 0; i < FLAG_COUNT; i++) argv[n++] = FLAGS[i];
-    argv[n++] = real;
-    argv[n++] = "-I";
-    argv[n++] = parent;
-    argv[n++] = job->source;
-    argv[n++] = job->calls;
-    argv[n++] = "-o";
-    argv[n++] = library;
-    argv[n++] = "-lm";
+// ---- the compilers ----
+
+// Runs a program; what it prints goes to `printed`, its exit code (-1: a signal) to *code. False when it cannot be started.
+static bool run_program(const char *const *argv, const char *printed, int *code) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, printed, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, 1, 2);
     pid_t child;
-    int error = posix_spawnp(&child, compiler, &actions, NULL, (char *const *)argv, environ), status = 0;
+    int error = posix_spawnp(&child, argv[0], &actions, NULL, (char *const *)argv, environ), status = 0;
     posix_spawn_file_actions_destroy(&actions);
+    if (error) return fail("%s", strerror(error));
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    *code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return true;
+}
+
+static bool compile_c(const BuildJob *job, const char *compiler, const char *library, const char *printed, bool *made) {
+    char *parent = file_join(job->root, ".."), *real = mem_format("-DREAL=%s", PRECISION_NAMES[job->precision]);
+    const char *argv[FLAG_COUNT + 10] = {compiler};
+    int n = 1, code;
+    for (int i = 0; i < FLAG_COUNT; i++) argv[n++] = FLAGS[i];
+    const char *more[] = {real, "-I", parent, job->source, job->calls, "-o", library, "-lm"};
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++) argv[n++] = more[i];
+    bool good = run_program(argv, printed, &code);
     mem_free(parent);
     mem_free(real);
-    if (error)
-        return fail("cannot start the C compiler '%s': %s; install gcc, or set CC to a compiler", compiler,
-                    strerror(error));
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-    *made = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (!good)
+        return fail_context("cannot start the C compiler '%s'; install gcc, or set CC to a compiler", compiler);
+    *made = code == 0;
     return true;
+}
+
+// The text that OpenCL gets, behind marks that keep the person's file and lines.
+static bool write_kernels(const BuildJob *job, const char *path) {
+    char *layer_path = file_join(job->root, "kernel_layer.cl"), *layer = NULL, *own = NULL;
+    size_t size;
+    bool good = file_read(layer_path, &layer, &size) && file_read(job->source, &own, &size);
+    if (good) {
+        char *text = mem_format("#define REAL %s\n#line 1 \"kernel_layer.cl\"\n%s\n#line 1 \"%s\"\n%s",
+                                PRECISION_NAMES[job->precision], layer, job->source, own);
+        good = file_write(path, text, strlen(text));
+        mem_free(text);
+    }
+    mem_free(layer_path);
+    mem_free(layer);
+    mem_free(own);
+    return good;
+}
+
+// The result is the text itself; the worker only looks whether it compiles.
+static bool compile_kernels(const BuildJob *job, const char *library, const char *printed, bool *made) {
+    char *worker, *said;
+    size_t size;
+    int code;
+    if (!worker_program_find(true, &worker)) return false;
+    const char *argv[] = {worker, "check", library, NULL};
+    bool good = write_kernels(job, library) && run_program(argv, printed, &code);
+    *made = good && code == 0;
+    if (good && code != 0 && code != 1) {
+        good = file_read(printed, &said, &size);
+        if (good) {
+            good = fail("cannot compile kernels: %s", said);
+            mem_free(said);
+        }
+    }
+    mem_free(worker);
+    return good;
 }
 
 // The library at `path` and the compiler's words beside it, made anew unless both are there.
 static bool make(BuildJob *job, const char *compiler, const char *path) {
-    char *words = mem_format("%s.txt", path), *temporary = mem_format("%s.tmp-%d", path, (int)getpid()),
+    const char *ending = is_kernel(job) ? ".cl" : ""; // OpenCL's worker goes by it
+    char *words = mem_format("%s.txt", path), *temporary = mem_format("%s.tmp-%d%s", path, (int)getpid(), ending),
          *printed = mem_format("%s.txt.tmp-%d", path, (int)getpid());
     bool made = file_exists(path), good = true;
     size_t size;
     if (!made) {
-        good = run_compiler(job, compiler, temporary, printed, &made);
+        good = is_kernel(job) ? compile_kernels(job, temporary, printed, &made)
+                              : compile_c(job, compiler, temporary, printed, &made);
         if (good && made) made = rename(temporary, path) == 0;
         if (good) rename(printed, words);
     }
@@ -184,7 +239,7 @@ static bool build_one(void *context, int index) {
     BuildJob *job = &all->jobs[index];
     char hex[SHA256_DIGEST_STRING_LENGTH];
     if (!job_hash(job, all->compiler, hex)) return false;
-    char *path = mem_format("%s/%.32s.so", all->folder, hex);
+    char *path = mem_format("%s/%.32s.%s", all->folder, hex, is_kernel(job) ? "cl" : "so");
     bool good = make(job, all->compiler, path);
     mem_free(path);
     return good;

@@ -1,4 +1,4 @@
-// build.h - from a student's C file to a shared object, by the system's compiler, kept until the text changes.
+// build.h - from a student's C file to a shared object, by the system's compiler, and from kernels to a text that OpenCL takes.
 #ifndef SPLATLAB_EXERCISES_HARNESS_BUILD_H
 #define SPLATLAB_EXERCISES_HARNESS_BUILD_H
 
@@ -11,8 +11,8 @@ extern const char *const PRECISION_NAMES[PRECISION_COUNT]; // "float", "double"
 // One library to build: `source` with `calls`, REAL as `precision`.
 typedef struct {
     const char *root;   // of the exercises; its parent is what includes begin from
-    const char *source; // path of the .c file
-    const char *calls;  // path of check_calls.c
+    const char *source; // path of the .c or .cl file
+    const char *calls;  // path of check_calls.c; kernels need none
     Precision precision;
     char *library;     // path of the result; owned, NULL before and when it does not compile
     char *diagnostics; // what the compiler said, "" for nothing; owned

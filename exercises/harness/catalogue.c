@@ -11,11 +11,11 @@
 #include <unistd.h>
 
 extern const Exercise EXERCISE_COV2, EXERCISE_CONIC, EXERCISE_COMPOSITE, EXERCISE_POPPING, EXERCISE_NERF, EXERCISE_QUAT,
-    EXERCISE_COV3, EXERCISE_CAMERA, EXERCISE_EWA, EXERCISE_EWA_ERROR, EXERCISE_SH;
+    EXERCISE_COV3, EXERCISE_CAMERA, EXERCISE_EWA, EXERCISE_EWA_ERROR, EXERCISE_SH, EXERCISE_ADAM;
 
 const Exercise *const EXERCISES[EXERCISE_COUNT] = {
     &EXERCISE_COV2, &EXERCISE_CONIC,  &EXERCISE_COMPOSITE, &EXERCISE_POPPING,   &EXERCISE_NERF, &EXERCISE_QUAT,
-    &EXERCISE_COV3, &EXERCISE_CAMERA, &EXERCISE_EWA,       &EXERCISE_EWA_ERROR, &EXERCISE_SH};
+    &EXERCISE_COV3, &EXERCISE_CAMERA, &EXERCISE_EWA,       &EXERCISE_EWA_ERROR, &EXERCISE_SH,   &EXERCISE_ADAM};
 
 static char *folder_name(const Exercise *e) { return mem_format("%02d_%s", e->number, e->name); }
 
@@ -65,7 +65,13 @@ char *exercise_path(const char *root, const Exercise *e, const char *file) {
     return path;
 }
 
-char *exercise_file_name(const Exercise *e) { return mem_format("%s.c", e->name); }
+static const char *ending(const Exercise *e) { return e->is_kernel ? ".cl" : ".c"; }
+
+char *exercise_file_name(const Exercise *e) { return mem_format("%s%s", e->name, ending(e)); }
+
+char *exercise_stub(const char *root, const Exercise *e) {
+    return exercise_path(root, e, e->is_kernel ? "stub.cl" : "stub.c");
+}
 
 char *exercise_source(const char *root, const Exercise *e) {
     char *file = exercise_file_name(e), *path = exercise_path(root, e, file);
@@ -80,7 +86,7 @@ char *exercise_solution(const char *root, const Exercise *e) {
 }
 
 bool exercise_lay_out(const char *root, const Exercise *e) {
-    char *source = exercise_source(root, e), *stub = exercise_path(root, e, "stub.c"), *text = NULL;
+    char *source = exercise_source(root, e), *stub = exercise_stub(root, e), *text = NULL;
     size_t size;
     bool good = file_exists(source) || (file_read(stub, &text, &size) && file_write(source, text, size));
     if (!good) fail_context("your file of exercise %d; to work elsewhere, copy %s there", e->number, root);
@@ -96,7 +102,7 @@ bool exercise_mutants(const char *root, const Exercise *e, char ***paths, int *c
     int kept = 0;
     for (int i = 0; good && i < *count; i++) {
         char *name = (*paths)[i];
-        if (file_has_ending(name, ".c")) (*paths)[kept++] = file_join(folder, name);
+        if (file_has_ending(name, ending(e))) (*paths)[kept++] = file_join(folder, name);
         mem_free(name);
     }
     if (good) *count = kept;

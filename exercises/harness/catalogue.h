@@ -19,9 +19,10 @@ typedef struct {
     const char *unlocks; // what can be done in the lab with it
     const Rung *rungs;
     int rung_count;
+    bool is_kernel; // OpenCL C: .cl in place of .c, and no check_calls.c
 } Exercise;
 
-enum { EXERCISE_COUNT = 11, RUNGS_MAX = 12 };
+enum { EXERCISE_COUNT = 12, RUNGS_MAX = 12 };
 extern const Exercise *const EXERCISES[EXERCISE_COUNT]; // by number
 
 // The one of that number ("7", "07", "E07"), name ("quat") or folder ("07_quat"). Fails (fail_usage) with what there is.
@@ -35,12 +36,13 @@ bool exercises_root(char **root);
 char *exercise_path(const char *root, const Exercise *exercise, const char *file);
 char *exercise_source(const char *root, const Exercise *exercise);   // NN_name/name.c
 char *exercise_solution(const char *root, const Exercise *exercise); // solutions/name.c
-char *exercise_file_name(const Exercise *exercise);                  // "cov2.c"
+char *exercise_file_name(const Exercise *exercise);                  // "cov2.c", "adam.cl"
+char *exercise_stub(const char *root, const Exercise *exercise);     // NN_name/stub.c
 
 // Lays the person's file out from the stub where there is none yet. False with a message when it cannot be written.
 bool exercise_lay_out(const char *root, const Exercise *exercise);
 
-// The wrong variants: paths of mutants/*.c, sorted, all owned by the caller (file_list_free()).
+// The wrong variants: paths of mutants/*.c (or .cl), sorted, all owned by the caller (file_list_free()).
 bool exercise_mutants(const char *root, const Exercise *exercise, char ***paths, int *count);
 
 #endif

@@ -20,6 +20,7 @@ typedef struct {
     int cases;         // for each seed; 0: RUNG_CASES
     int count;         // numbers of a case, 1..RUNG_NUMBERS_MAX
     bool double_only;  // gradients: float is too coarse to tell right from nearly right
+    bool is_watched;   // of kernels: under Oclgrind, with double_only and one seed, since it takes long
     // Case k of a seed. Cases with small k are good for edges: zero, equal, huge. Numbers are rounded to float afterwards, so
     // that float and double see the same.
     void (*draw)(Rng *rng, int k, double *in);

@@ -22,7 +22,7 @@ static bool judge(const char *root, const Exercise *e, const char *source, const
 }
 
 static bool try_stub(const char *root, const Exercise *e, const Ledger *ledger, Verdict *v, SelftestResult *result) {
-    char *stub = exercise_path(root, e, "stub.c");
+    char *stub = exercise_stub(root, e);
     bool good = judge(root, e, stub, ledger, false, v);
     result->stub_fails = good && !v->passed && v->not_started;
     verdict_free(v);

@@ -5,14 +5,17 @@
 #include "exercises/harness/worker_process.h"
 #include "lab/base/clock.h"
 #include "lab/base/mem.h"
+#include "lab/io/file.h"
 
 #include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 struct Subject {
     char *library, *file, *program;
@@ -21,6 +24,8 @@ struct Subject {
     Trouble trouble;
     double *numbers; // (capacity) of a request or an answer
     size_t capacity;
+    bool is_kernel, is_awake; // awake: a worker for kernels has said that it has compiled them
+    char *log;                // Oclgrind's report; NULL: not under Oclgrind
     char printed[WORKER_PRINTED_KEPT + 1]; // of the workers that died, and of the running one
 };
 
@@ -30,21 +35,44 @@ static bool start_worker(Subject *s) {
     char seconds[16], megabytes[16];
     snprintf(seconds, sizeof seconds, "%d", WORKER_CPU_SECONDS);
     snprintf(megabytes, sizeof megabytes, "%d", WORKER_MEGABYTES);
-    const char *argv[] = {s->program, s->library, seconds, megabytes, NULL};
-    return worker_process_start(&s->worker, argv);
+    const char *plain[] = {s->program, s->library, seconds, megabytes, NULL};
+    const char *kernels[] = {s->program, "serve", s->library, NULL};
+    const char *watched[] = {"oclgrind", "--data-races", "--log", s->log, s->program, "serve", s->library, s->log, NULL};
+    s->is_awake = !s->is_kernel;
+    return worker_process_start(&s->worker, s->log ? watched : s->is_kernel ? kernels : plain);
 }
 
-Subject *subject_start(const char *library, const char *file) {
+static Subject *start(const char *library, const char *file, bool under_oclgrind) {
     char *program;
-    if (!worker_program_find(&program)) return NULL;
+    bool is_kernel = file_has_ending(library, ".cl");
+    if (!worker_program_find(is_kernel, &program)) return NULL;
     Subject *s = mem_alloc(1, sizeof *s);
     s->library = mem_text(library);
     s->file = mem_text(file);
     s->program = program;
+    s->is_kernel = is_kernel;
     if (getrandom(&s->ticket, sizeof s->ticket, 0) < 0) s->ticket = 1;
+    if (under_oclgrind) s->log = mem_format("%s.%llx.log", library, (unsigned long long)s->ticket);
     if (start_worker(s)) return s;
     subject_stop(s);
     return NULL;
+}
+
+Subject *subject_start(const char *library, const char *file) { return start(library, file, false); }
+
+Subject *subject_again_oclgrind(const Subject *s) { return start(s->library, s->file, true); }
+
+bool subject_has_oclgrind(void) {
+    const char *path = getenv("PATH");
+    char *folders = mem_text(path ? path : ""), *rest = folders;
+    bool found = false;
+    for (char *folder; !found && (folder = strsep(&rest, ":"));) {
+        char *program = mem_format("%s/oclgrind", folder);
+        found = access(program, X_OK) == 0;
+        mem_free(program);
+    }
+    mem_free(folders);
+    return found;
 }
 
 // Keeps what it printed.
@@ -59,6 +87,8 @@ static int stop_worker(Subject *s) {
 void subject_stop(Subject *s) {
     if (!s) return;
     stop_worker(s);
+    if (s->log) unlink(s->log);
+    mem_free(s->log);
     mem_free(s->library);
     mem_free(s->file);
     mem_free(s->program);
@@ -135,8 +165,21 @@ static bool say_answer(Subject *s, const char *function, const Arg *args, int co
                        args[head->arg].name, head->element);
     case ANSWER_CRASHED:
         return say_crash(s, function, head);
+    case ANSWER_ORDER:
+        return trouble(s, TROUBLE_ORDER,
+                       "%s() gives another %s[%d] when its work-items run in another order (%s): one of them reads or "
+                       "writes what belongs to another",
+                       function, args[head->arg].name, head->element, head->text);
+    case ANSWER_REPORTED:
+        return trouble(s, TROUBLE_REPORTED, "Oclgrind, which watches every work-item: %s", head->text);
+    case ANSWER_DEVICE:
+        return trouble(s, TROUBLE_DEVICE, "%s() could not run: %s", function, head->text);
     }
     return trouble(s, TROUBLE_MEDDLING, MEDDLING_TEXT, function);
+}
+
+static double limit_s(const Subject *s) {
+    return (s->log ? WORKER_OCLGRIND_MS : s->is_kernel ? WORKER_KERNEL_MS : WORKER_CALL_MS) / 1000.0;
 }
 
 // The worker did not answer: it ended, or has to be ended.
@@ -144,7 +187,7 @@ static bool say_silence(Subject *s, const char *function, Heard heard) {
     int status = stop_worker(s);
     if (heard == HEARD_TIMEOUT)
         return trouble(s, TROUBLE_TIMEOUT, "%s() did not come back within %.0f s: a loop without end?", function,
-                       WORKER_CALL_MS / 1000.0);
+                       limit_s(s));
     if (heard == HEARD_FLOOD)
         return trouble(s, TROUBLE_FLOOD, "%s() printed more than %d MB and was stopped", function,
                        WORKER_PRINTED_MAX >> 20);
@@ -162,14 +205,17 @@ static void need_numbers(Subject *s, size_t count) {
     s->capacity = count;
 }
 
-static size_t copy_numbers(Subject *s, const Arg *args, int count, int sets, bool outputs, bool into_args) {
+// Does the argument go that way? Into the worker, or out of it.
+static bool goes(const Arg *arg, bool out) { return out ? arg->is_output : !arg->is_output || arg->is_updated; }
+
+static size_t copy_numbers(Subject *s, const Arg *args, int count, int sets, bool out) {
     size_t n = 0;
     for (int set = 0; set < sets; set++)
         for (int k = 0; k < count; k++) {
-            if (args[k].is_output != outputs) continue;
+            if (!goes(&args[k], out)) continue;
             double *numbers = args[k].numbers + (size_t)set * (size_t)args[k].count;
             size_t bytes = (size_t)args[k].count * sizeof *numbers;
-            if (into_args)
+            if (out)
                 memcpy(numbers, s->numbers + n, bytes);
             else
                 memcpy(s->numbers + n, numbers, bytes);
@@ -178,10 +224,10 @@ static size_t copy_numbers(Subject *s, const Arg *args, int count, int sets, boo
     return n;
 }
 
-static size_t count_numbers(const Arg *args, int count, int sets, bool outputs) {
+static size_t count_numbers(const Arg *args, int count, int sets, bool out) {
     size_t n = 0;
     for (int k = 0; k < count; k++)
-        if (args[k].is_output == outputs) n += (size_t)args[k].count;
+        if (goes(&args[k], out)) n += (size_t)args[k].count;
     return n * (size_t)sets;
 }
 
@@ -195,25 +241,41 @@ static WireRequest make_request(Subject *s, const char *function, const Arg *arg
     assert(count <= WIRE_ARGS_MAX && strlen(function) < WIRE_NAME_BYTES);
     snprintf(request.function, sizeof request.function, "%s", function);
     for (int k = 0; k < count; k++)
-        request.args[k] = (WireArg){.is_output = args[k].is_output, .count = (uint32_t)args[k].count};
+        request.args[k] = (WireArg){
+            .is_input = goes(&args[k], false), .is_output = args[k].is_output, .count = (uint32_t)args[k].count};
     return request;
+}
+
+// A worker for kernels compiles them first; that takes longer than a call may.
+static Heard wake(Subject *s) {
+    WireAnswer ready;
+    if (s->is_awake) return HEARD;
+    Heard heard = worker_process_receive(&s->worker, &ready, sizeof ready, clock_seconds() + WORKER_WAKE_MS / 1000.0);
+    s->is_awake = heard == HEARD;
+    return heard;
+}
+
+static Heard exchange(Subject *s, const WireRequest *request, size_t in, WireAnswer *head, double deadline_s) {
+    Heard heard = worker_process_send(&s->worker, request, sizeof *request, deadline_s);
+    if (heard == HEARD) heard = worker_process_send(&s->worker, s->numbers, in * sizeof(double), deadline_s);
+    if (heard == HEARD || heard == HEARD_END)
+        heard = worker_process_receive(&s->worker, head, sizeof *head, deadline_s);
+    return heard;
 }
 
 bool subject_call_sets(Subject *s, const char *function, const Arg *args, int count, int sets) {
     s->trouble = (Trouble){0};
-    poison_outputs(args, count, sets);
-    if (!s->worker.pid && !start_worker(s)) return trouble(s, TROUBLE_ENDED, "the worker could not be started again");
     WireRequest request = make_request(s, function, args, count, sets);
     size_t in = count_numbers(args, count, sets, false), out = count_numbers(args, count, sets, true);
     need_numbers(s, in > out ? in : out);
-    copy_numbers(s, args, count, sets, false, false);
+    copy_numbers(s, args, count, sets, false);
+    poison_outputs(args, count, sets);
+    if (!s->worker.pid && !start_worker(s)) return trouble(s, TROUBLE_ENDED, "the worker could not be started again");
 
-    double deadline_s = clock_seconds() + WORKER_CALL_MS / 1000.0;
     WireAnswer head;
-    Heard heard = worker_process_send(&s->worker, &request, sizeof request, deadline_s);
-    if (heard == HEARD) heard = worker_process_send(&s->worker, s->numbers, in * sizeof(double), deadline_s);
-    if (heard == HEARD || heard == HEARD_END)
-        heard = worker_process_receive(&s->worker, &head, sizeof head, deadline_s);
+    Heard heard = wake(s);
+    double deadline_s = clock_seconds() + limit_s(s);
+    if (heard == HEARD) heard = exchange(s, &request, in, &head, deadline_s);
     if (heard != HEARD) return say_silence(s, function, heard);
     if (head.ticket != request.ticket) {
         stop_worker(s);
@@ -226,7 +288,7 @@ bool subject_call_sets(Subject *s, const char *function, const Arg *args, int co
     }
     heard = worker_process_receive(&s->worker, s->numbers, out * sizeof(double), deadline_s);
     if (heard != HEARD) return say_silence(s, function, heard);
-    copy_numbers(s, args, count, sets, true, true);
+    copy_numbers(s, args, count, sets, true);
     return true;
 }
 

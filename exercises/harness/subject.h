@@ -20,16 +20,19 @@ typedef struct {
     double *numbers; // (sets, count); outputs are written, or NaN where the code wrote nothing
     int count;
     bool is_output;
+    bool is_updated; // an output that is an input first: kernels alone
 } Arg;
 
 #define IN(x)                                                                                                          \
-    { #x, (double *)&(x), 1, false }
+    { #x, (double *)&(x), 1, false, false }
 #define OUT(x)                                                                                                         \
-    { #x, &(x), 1, true }
+    { #x, &(x), 1, true, false }
 #define IN_ARRAY(x, count)                                                                                             \
-    { #x, (double *)(x), (count), false }
+    { #x, (double *)(x), (count), false, false }
 #define OUT_ARRAY(x, count)                                                                                            \
-    { #x, (x), (count), true }
+    { #x, (x), (count), true, false }
+#define UPDATED_ARRAY(x, count)                                                                                        \
+    { #x, (x), (count), true, true }
 // `f(object, name, args, number of args)` with the arguments written in a row.
 #define CALL(f, object, name, ...)                                                                                     \
     f(object, name, (Arg[]){__VA_ARGS__}, (int)(sizeof((Arg[]){__VA_ARGS__}) / sizeof(Arg)))
@@ -46,6 +49,10 @@ typedef enum {
     TROUBLE_FLOOD,    // printed without end
     TROUBLE_ENDED,    // the process ended itself
     TROUBLE_MEDDLING, // wrote into the judge's socket
+    // Of kernels alone:
+    TROUBLE_ORDER,    // the result depends on the order in which work-items run
+    TROUBLE_REPORTED, // Oclgrind has seen something
+    TROUBLE_DEVICE,   // OpenCL refused
 } TroubleKind;
 
 enum { TROUBLE_BYTES = 400 };
@@ -57,8 +64,13 @@ typedef struct {
 
 typedef struct Subject Subject;
 
-// file: the source's name, for messages. NULL with a message when the worker program cannot be started.
+// library: a shared object, or the text of kernels (.cl), as build.h makes them. file: the source's name, for messages. NULL with
+// a message when the worker program cannot be started.
 Subject *subject_start(const char *library, const char *file);
+
+// Kernels on Oclgrind's device, which interprets each work-item and sees races and wrong addresses; about a thousand times as slow.
+Subject *subject_again_oclgrind(const Subject *subject); // another one of the same text
+bool subject_has_oclgrind(void); // is it installed?
 void subject_stop(Subject *subject); // accepts NULL
 
 // Calls the function once, or `sets` times in one go. False when it did not come back with numbers: subject_trouble().

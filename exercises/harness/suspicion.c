@@ -61,7 +61,7 @@ bool suspicion_describe(const char *path, char name[SUSPICION_NAME_BYTES], char 
     if (!file_read(path, &content, &size)) return false;
     const char *file = strrchr(path, '/');
     file = file ? file + 1 : path;
-    snprintf(name, SUSPICION_NAME_BYTES, "%.*s", (int)(strlen(file) - 2), file);
+    snprintf(name, SUSPICION_NAME_BYTES, "%.*s", (int)strcspn(file, "."), file);
     const char *from = strstr(content, " - ");
     size_t used = 0;
     for (from = from ? from + 3 : ""; *from && used + 2 < SUSPICION_BYTES; from++) {
@@ -90,6 +90,7 @@ static bool build_variants(const char *root, const Exercise *exercise, Precision
     return good;
 }
 
+<<<<<<< HEAD
 static bool take_from(const char *library, const Rung *rung, Precision precision, Testimony *testimony) {
     Subject *subject = library ? subject_start(library, "a wrong variant") : NULL;
     if (subject) testimony_take(rung, precision, subject, testimony);
@@ -105,6 +106,12 @@ typedef struct {
 
 static Agreement agree(const Testimony *answer, const Testimony *ours, const Testimony *variant, double same) {
     Agreement a = {0};
+=======
+// Of the cases in which `answer` is not `ours`: how many are `variant`'s?
+static void agree(const Testimony *answer, const Testimony *ours, const Testimony *variant, double same, int *matched,
+                  int *cases) {
+    *matched = *cases = 0;
+>>>>>>> harness
     for (int i = 0; i < CASES_ALL; i++) {
         if (answer->of[i].count == 0) continue;
         bool is_variants = numbers_same(&answer->of[i], &variant->of[i], same);
@@ -121,6 +128,14 @@ static double rank_of(const Agreement *a) {
     return a->cases ? (double)a->matched / a->cases + 1e-3 * a->alike / CASES_ALL : 0;
 }
 
+// All at once: a worker for kernels takes its time to compile them, and several do so side by side.
+static bool start_all(const BuildJob *jobs, int count, Subject **subjects) {
+    bool good = true;
+    for (int i = 0; good && i < count; i++)
+        good = !jobs[i].library || (subjects[i] = subject_start(jobs[i].library, "a wrong variant"));
+    return good;
+}
+
 bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung, Precision precision, Subject *subject,
                     Suspicion *suspicion) {
     char **paths;
@@ -128,16 +143,24 @@ bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung
     *suspicion = (Suspicion){0};
     if (!exercise_mutants(root, exercise, &paths, &count)) return false;
     BuildJob *jobs = mem_alloc((size_t)count + 1, sizeof *jobs);
+    Subject **subjects = mem_alloc((size_t)count + 1, sizeof(Subject *));
     Testimony answer = {0}, ours = {0};
-    bool good = build_variants(root, exercise, precision, paths, count, jobs) &&
-                take_from(jobs[0].library, rung, precision, &ours);
+    bool good =
+        build_variants(root, exercise, precision, paths, count, jobs) && start_all(jobs, count + 1, subjects);
+    if (good && subjects[0]) testimony_take(rung, precision, subjects[0], &ours);
     if (good) testimony_take(rung, precision, subject, &answer);
     double best = 0;
     for (int i = 0; good && i < count; i++) {
         Testimony variant = {0};
+<<<<<<< HEAD
         Agreement a = {0};
         if (take_from(jobs[i + 1].library, rung, precision, &variant))
             a = agree(&answer, &ours, &variant, SAME[precision]);
+=======
+        int matched = 0, cases = 0;
+        if (subjects[i + 1]) testimony_take(rung, precision, subjects[i + 1], &variant);
+        agree(&answer, &ours, &variant, SAME[precision], &matched, &cases);
+>>>>>>> harness
         testimony_free(&variant);
         if (a.matched < AGREES_PART * a.cases || rank_of(&a) <= best) continue;
         best = rank_of(&a);
@@ -146,9 +169,13 @@ bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung
         suspicion->cases = a.cases;
         good = suspicion_describe(paths[i], suspicion->name, suspicion->text);
     }
-    for (int i = 0; i <= count; i++) build_free(&jobs[i]);
+    for (int i = 0; i <= count; i++) {
+        subject_stop(subjects[i]);
+        build_free(&jobs[i]);
+    }
     testimony_free(&answer);
     testimony_free(&ours);
+    mem_free(subjects);
     mem_free(jobs);
     file_list_free(paths, count);
     return good;

@@ -8,7 +8,7 @@ enum { SUSPICION_BYTES = 400, SUSPICION_NAME_BYTES = 64 };
 
 typedef struct {
     bool found;
-    char name[SUSPICION_NAME_BYTES]; // "scale_is_variance": the variant's file without .c
+    char name[SUSPICION_NAME_BYTES]; // "scale_is_variance": the variant's file without its ending
     char text[SUSPICION_BYTES];      // its first comment
     int matched, cases; // of the cases in which the answer differs from ours, in so many it gives the variant's numbers
 } Suspicion;

@@ -21,21 +21,26 @@ static void append(char *text, size_t size, const char *more) {
 }
 
 <<<<<<< HEAD
+<<<<<<< HEAD
 enum { SHOWN_OF_ARRAY = 18 };
 =======
 enum { SHOWN_OF_ARRAY = 18 }; // a camera in full
 >>>>>>> ex-b
+=======
+enum { WHOLE_ARRAY = 16, SHOWN_OF_LONGER = 4 };
+>>>>>>> harness
 
 // "theta = 0.5" or "bg = (0, 0, 0)".
 static void append_arg(char *text, size_t size, const Arg *arg) {
     char number[40];
     append(text, size, arg->name);
     append(text, size, arg->count == 1 ? " = " : " = (");
-    for (int i = 0; i < arg->count && i < SHOWN_OF_ARRAY; i++) {
-        snprintf(number, sizeof number, "%s%.9g", i ? ", " : "", arg->numbers[i]);
+    int shown = arg->count <= WHOLE_ARRAY ? arg->count : SHOWN_OF_LONGER;
+    for (int i = 0; i < shown; i++) {
+        snprintf(number, sizeof number, "%s%.7g", i ? ", " : "", arg->numbers[i]);
         append(text, size, number);
     }
-    if (arg->count > SHOWN_OF_ARRAY) {
+    if (arg->count > shown) {
         snprintf(number, sizeof number, ", ... %d numbers", arg->count);
         append(text, size, number);
     }
@@ -48,7 +53,7 @@ static void note_call(Trial *t, const char *function, const Arg *args, int count
     append(t->called, sizeof t->called, "(");
     bool first = true;
     for (int k = 0; k < count; k++) {
-        if (args[k].is_output) continue;
+        if (args[k].is_output && !args[k].is_updated) continue;
         if (!first) append(t->called, sizeof t->called, ", ");
         append_arg(t->called, sizeof t->called, &args[k]);
         first = false;

@@ -49,26 +49,45 @@ static bool is_wrong(const RungResult *result) {
     return result->ran && !result->passed && result->failure.trouble.kind == TROUBLE_NONE;
 }
 
+// Under Oclgrind, where it is installed; not before the answer is started.
+static bool run_watched(const Rung *rung, const Subject *subject, const double tolerance[PRECISION_COUNT],
+                        const VerdictOptions *options, RungResult *result) {
+    *result = (RungResult){.ran = true, .passed = true, .skipped = "skipped, oclgrind is not installed"};
+    if (!subject_has_oclgrind()) return true;
+    Subject *watched[PRECISION_COUNT] = {[PRECISION_DOUBLE] = subject_again_oclgrind(subject)};
+    if (!watched[PRECISION_DOUBLE]) return false;
+    rung_run(rung, watched, tolerance, options->seeds, 1, result);
+    subject_stop(watched[PRECISION_DOUBLE]);
+    return true;
+}
+
 // One after another until trouble that the next would meet as well.
 static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *options,
                   Subject *const subjects[PRECISION_COUNT], Verdict *v) {
     const Exercise *e = v->exercise;
-    for (int r = 0; r < e->rung_count; r++) {
+    bool good = true, was_wrong = false;
+    for (int r = 0; good && r < e->rung_count; r++) {
         RungResult *result = &v->rungs[r];
+        if (e->rungs[r].is_watched && was_wrong) continue; // numbers first
         double tolerance[PRECISION_COUNT];
         for (int p = 0; p < PRECISION_COUNT; p++)
             tolerance[p] = ledger_tolerance(ledger->own_error[exercise_index(e)][r][p], (Precision)p);
-        rung_run(&e->rungs[r], subjects, tolerance, options->seeds, options->seed_count, result);
-        if (options->names_mistakes && is_wrong(result) &&
+        if (e->rungs[r].is_watched)
+            good = run_watched(&e->rungs[r], subjects[PRECISION_DOUBLE], tolerance, options, result);
+        else
+            rung_run(&e->rungs[r], subjects, tolerance, options->seeds, options->seed_count, result);
+        // Kernels take a while to start: the first wrong rung of theirs is named alone.
+        if (options->names_mistakes && is_wrong(result) && !(e->is_kernel && was_wrong) &&
             !suspicion_find(root, e, &e->rungs[r], result->precision, subjects[result->precision], &v->suspicions[r]))
             return false;
         if (options->draws && v->pictured < 0 && is_wrong(result) && e->rungs[r].picture &&
             pictures_write(root, e, &e->rungs[r], result, subjects[result->precision]))
             v->pictured = r;
+        was_wrong |= is_wrong(result);
         TroubleKind kind = result->failure.trouble.kind;
         if (kind == TROUBLE_TIMEOUT || kind == TROUBLE_FLOOD || kind == TROUBLE_MEDDLING) break;
     }
-    return true;
+    return good;
 }
 
 bool verdict_of(const char *root, const Exercise *exercise, const char *source, const Ledger *ledger,

@@ -19,8 +19,9 @@ enum {
 // A number that nobody wrote: a NaN with a payload of its own.
 static const uint64_t WIRE_UNWRITTEN = 0x7ff8dead0000beefULL;
 
+// is_input, is_output: numbers go in, come out, or both; an input that is no output must come back unchanged.
 typedef struct {
-    uint32_t is_output; // else it is an input, and must come back unchanged
+    uint16_t is_input, is_output;
     uint32_t count;     // numbers of one set
 } WireArg;
 
@@ -32,6 +33,19 @@ typedef struct {
     WireArg args[WIRE_ARGS_MAX];
 } WireRequest;
 
+// Numbers of one set that go in, and that come out.
+static inline uint64_t wire_inputs(const WireRequest *request) {
+    uint64_t sum = 0;
+    for (uint32_t k = 0; k < request->arg_count; k++) sum += request->args[k].is_input ? request->args[k].count : 0;
+    return sum;
+}
+
+static inline uint64_t wire_outputs(const WireRequest *request) {
+    uint64_t sum = 0;
+    for (uint32_t k = 0; k < request->arg_count; k++) sum += request->args[k].is_output ? request->args[k].count : 0;
+    return sum;
+}
+
 typedef enum {
     ANSWER_DONE,
     ANSWER_NOT_STARTED,   // text, line: the file and place of NOT_STARTED
@@ -39,6 +53,10 @@ typedef enum {
     ANSWER_WROTE_OUTSIDE, // arg, element: where a guard word was changed (element < 0 or >= count)
     ANSWER_CHANGED_INPUT, // arg, element
     ANSWER_CRASHED,       // signal, offset: place in the library; text: what was asked of malloc when it refused
+    // Of kernels alone:
+    ANSWER_ORDER,    // arg, element: another number when the work-items run in another order; text: which
+    ANSWER_REPORTED, // text: what Oclgrind has seen
+    ANSWER_DEVICE,   // text: why OpenCL did not do it
 } WireOutcome;
 
 // Behind it when done: `sets` times the numbers of all outputs.

@@ -3,7 +3,10 @@
 // A process of its own, started afresh for each library, with limits on memory and processor time. Standard output and
 // error are the student's; the judge is spoken to through the socket WIRE_FD alone.
 #include "exercises/harness/wire.h"
+#include "exercises/harness/worker_channel.h"
+#include "exercises/harness/worker_fence.h"
 #include "exercises/harness/worker_guard.h"
+#include "exercises/harness/worker_number.h"
 
 #include <dlfcn.h>
 #include <setjmp.h>
@@ -22,7 +25,7 @@ typedef struct {
 
 typedef struct {
     const AnyCall *calls;
-    size_t real_bytes; // 4 or 8
+    NumberType type;
 } Library;
 
 static jmp_buf not_started_jump;
@@ -42,66 +45,7 @@ static void *need(void *p) {
     return p;
 }
 
-// ---- the socket ----
-
-static void receive(void *data, size_t size) {
-    for (size_t done = 0; done < size;) {
-        ssize_t got = read(WIRE_FD, (char *)data + done, size - done);
-        if (got <= 0) _exit(0); // the judge is gone
-        done += (size_t)got;
-    }
-}
-
-static void answer(const WireAnswer *head, const double *numbers, size_t count) {
-    const void *part[] = {head, numbers};
-    size_t size[] = {sizeof *head, count * sizeof *numbers};
-    for (int k = 0; k < 2; k++) {
-        for (size_t done = 0; done < size[k];) {
-            ssize_t sent = write(WIRE_FD, (const char *)part[k] + done, size[k] - done);
-            if (sent <= 0) _exit(0);
-            done += (size_t)sent;
-        }
-    }
-}
-
 // ---- arguments between guard words ----
-
-// The guard word: a number that nobody computes.
-static const float GUARD_FLOAT = -7.1234567e33f;
-static const double GUARD_DOUBLE = -7.123456789012345e303;
-
-static void real_set(void *at, size_t index, size_t real_bytes, double value, bool is_guard) {
-    if (real_bytes == sizeof(float))
-        ((float *)at)[index] = is_guard ? GUARD_FLOAT : (float)value;
-    else
-        ((double *)at)[index] = is_guard ? GUARD_DOUBLE : value;
-}
-
-static const uint32_t UNWRITTEN_FLOAT = 0x7fc0beefU;
-
-static void real_poison(void *at, size_t index, size_t real_bytes) {
-    if (real_bytes == sizeof(float))
-        memcpy((float *)at + index, &UNWRITTEN_FLOAT, sizeof(float));
-    else
-        memcpy((double *)at + index, &WIRE_UNWRITTEN, sizeof(double));
-}
-
-static double real_get(const void *at, size_t index, size_t real_bytes) {
-    if (real_bytes == sizeof(double)) return ((const double *)at)[index];
-    uint32_t bits;
-    memcpy(&bits, (const float *)at + index, sizeof bits);
-    if (bits != UNWRITTEN_FLOAT) return (double)((const float *)at)[index];
-    double unwritten;
-    memcpy(&unwritten, &WIRE_UNWRITTEN, sizeof unwritten);
-    return unwritten;
-}
-
-// Are the bytes of number `index` those that real_set() would write?
-static bool real_is(const void *at, size_t index, size_t real_bytes, double value, bool is_guard) {
-    double wanted[1];
-    real_set(wanted, 0, real_bytes, value, is_guard);
-    return memcmp((const char *)at + index * real_bytes, wanted, real_bytes) == 0;
-}
 
 // All arguments of a request, each between its guards.
 typedef struct {
@@ -109,11 +53,11 @@ typedef struct {
     void *numbers[WIRE_ARGS_MAX];
 } Frame;
 
-static Frame frame_create(const WireRequest *request, size_t real_bytes) {
+static Frame frame_create(const WireRequest *request, NumberType type) {
     Frame frame = {0};
     for (uint32_t k = 0; k < request->arg_count; k++) {
-        frame.memory[k] = need(calloc(request->args[k].count + 2 * WIRE_GUARD, real_bytes));
-        frame.numbers[k] = frame.memory[k] + WIRE_GUARD * real_bytes;
+        frame.memory[k] = need(calloc(request->args[k].count + 2 * WIRE_GUARD, number_bytes(type)));
+        frame.numbers[k] = frame.memory[k] + WIRE_GUARD * number_bytes(type);
     }
     return frame;
 }
@@ -123,38 +67,38 @@ static void frame_destroy(Frame *frame) {
 }
 
 // Inputs, poison and guards of one set; returns where the next set's inputs begin.
-static const double *frame_fill(Frame *frame, const WireRequest *request, size_t real_bytes, const double *in) {
+static const double *frame_fill(Frame *frame, const WireRequest *request, NumberType type, const double *in) {
     for (uint32_t k = 0; k < request->arg_count; k++) {
         size_t count = request->args[k].count;
         for (size_t i = 0; i < WIRE_GUARD; i++) {
-            real_set(frame->memory[k], i, real_bytes, 0, true);
-            real_set(frame->memory[k], WIRE_GUARD + count + i, real_bytes, 0, true);
+            number_set(frame->memory[k], i, type, 0, true);
+            number_set(frame->memory[k], WIRE_GUARD + count + i, type, 0, true);
         }
         for (size_t i = 0; i < count; i++) {
-            if (request->args[k].is_output)
-                real_poison(frame->numbers[k], i, real_bytes);
+            if (request->args[k].is_input)
+                number_set(frame->numbers[k], i, type, *in++, false);
             else
-                real_set(frame->numbers[k], i, real_bytes, *in++, false);
+                number_poison(frame->numbers[k], i, type);
         }
     }
     return in;
 }
 
 // Sets outcome, arg and element where the call wrote what it must not.
-static bool frame_check(const Frame *frame, const WireRequest *request, size_t real_bytes, const double *in,
+static bool frame_check(const Frame *frame, const WireRequest *request, NumberType type, const double *in,
                         WireAnswer *head) {
     for (uint32_t k = 0; k < request->arg_count; k++) {
         size_t count = request->args[k].count;
         for (size_t i = 0; i < count + 2 * WIRE_GUARD; i++) {
             bool is_guard = i < WIRE_GUARD || i >= WIRE_GUARD + count;
             if (!is_guard && request->args[k].is_output) continue;
-            if (real_is(frame->memory[k], i, real_bytes, is_guard ? 0 : in[i - WIRE_GUARD], is_guard)) continue;
+            if (number_is(frame->memory[k], i, type, is_guard ? 0 : in[i - WIRE_GUARD], is_guard)) continue;
             head->outcome = is_guard ? ANSWER_WROTE_OUTSIDE : ANSWER_CHANGED_INPUT;
             head->arg = (int32_t)k;
             head->element = (int32_t)i - WIRE_GUARD;
             return false;
         }
-        if (!request->args[k].is_output) in += count;
+        if (request->args[k].is_input) in += count;
     }
     return true;
 }
@@ -167,12 +111,6 @@ static const AnyCall *find_call(const Library *library, const char *name) {
     return NULL;
 }
 
-static size_t numbers_of(const WireRequest *request, bool outputs) {
-    size_t sum = 0;
-    for (uint32_t k = 0; k < request->arg_count; k++)
-        if ((request->args[k].is_output != 0) == outputs) sum += request->args[k].count;
-    return sum;
-}
 
 // False when the function is not started yet. (A function of its own: setjmp() leaves nothing else of a caller's certain.)
 static bool call_once(const AnyCall *call, Frame *frame) {
@@ -181,28 +119,28 @@ static bool call_once(const AnyCall *call, Frame *frame) {
     return true;
 }
 
-static double *take_outputs(const Frame *frame, const WireRequest *request, size_t real_bytes, double *out) {
+static double *take_outputs(const Frame *frame, const WireRequest *request, NumberType type, double *out) {
     for (uint32_t k = 0; k < request->arg_count; k++)
         for (size_t i = 0; request->args[k].is_output && i < request->args[k].count; i++)
-            *out++ = real_get(frame->numbers[k], i, real_bytes);
+            *out++ = number_get(frame->numbers[k], i, type);
     return out;
 }
 
 // Calls the function for each set; false with the outcome in *head when something was wrong.
 static bool call_all(const Library *library, const AnyCall *call, const WireRequest *request, const double *in,
                      double *out, WireAnswer *head) {
-    Frame frame = frame_create(request, library->real_bytes);
+    Frame frame = frame_create(request, library->type);
     bool good = true;
     for (uint32_t set = 0; good && set < request->sets; set++) {
-        const double *next = frame_fill(&frame, request, library->real_bytes, in);
+        const double *next = frame_fill(&frame, request, library->type, in);
         if (call_once(call, &frame)) {
-            good = frame_check(&frame, request, library->real_bytes, in, head);
+            good = frame_check(&frame, request, library->type, in, head);
         } else {
             not_started_answer.ticket = head->ticket;
             *head = not_started_answer;
             good = false;
         }
-        if (good) out = take_outputs(&frame, request, library->real_bytes, out);
+        if (good) out = take_outputs(&frame, request, library->type, out);
         in = next;
     }
     frame_destroy(&frame);
@@ -211,10 +149,10 @@ static bool call_all(const Library *library, const AnyCall *call, const WireRequ
 
 static void serve(const Library *library) {
     WireRequest request;
-    receive(&request, sizeof request);
-    size_t in_count = numbers_of(&request, false) * request.sets, out_count = numbers_of(&request, true) * request.sets;
+    channel_receive(&request, sizeof request);
+    size_t in_count = wire_inputs(&request) * request.sets, out_count = wire_outputs(&request) * request.sets;
     double *in = need(calloc(in_count + 1, sizeof *in)), *out = need(calloc(out_count + 1, sizeof *out));
-    receive(in, in_count * sizeof *in);
+    channel_receive(in, in_count * sizeof *in);
 
     WireAnswer head = {.ticket = request.ticket, .outcome = ANSWER_DONE};
     const AnyCall *call = find_call(library, request.function);
@@ -223,7 +161,7 @@ static void serve(const Library *library) {
     worker_guard_ticket(request.ticket);
     if (call) good = call_all(library, call, &request, in, out, &head);
     fflush(stdout);
-    answer(&head, out, good ? out_count : 0);
+    channel_answer(&head, out, good ? out_count : 0);
     free(in);
     free(out);
 }
@@ -231,10 +169,10 @@ static void serve(const Library *library) {
 // What cannot be loaded is told when the first request comes.
 static void refuse(const char *why) {
     WireRequest request;
-    receive(&request, sizeof request);
+    channel_receive(&request, sizeof request);
     WireAnswer head = {.ticket = request.ticket, .outcome = ANSWER_NO_FUNCTION};
     snprintf(head.text, sizeof head.text, "%s", why);
-    answer(&head, NULL, 0);
+    channel_answer(&head, NULL, 0);
     _exit(1);
 }
 
@@ -244,12 +182,13 @@ int main(int argc, char **argv) {
         return 2;
     }
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    worker_guard_limits(atoi(argv[2]), atoi(argv[3]));
+    worker_guard_limits(atoi(argv[2]), atoi(argv[3]), 1);
     worker_guard_signals();
+    worker_fence_raise(); // before the library, whose constructors run in dlopen()
     void *handle = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
     if (!handle) refuse(dlerror());
     const int *real_bytes = dlsym(handle, "REAL_BYTES");
-    Library library = {.calls = dlsym(handle, "CALLS"), .real_bytes = real_bytes ? (size_t)*real_bytes : 0};
+    Library library = {.calls = dlsym(handle, "CALLS"), .type = real_bytes && *real_bytes == sizeof(float) ? NUMBER_FLOAT : NUMBER_DOUBLE};
     if (!library.calls || !real_bytes) refuse("the library was not built by splatlab exercise");
     worker_guard_library(dlsym(handle, "CALLS"));
     for (;;) serve(&library);

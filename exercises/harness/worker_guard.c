@@ -18,18 +18,18 @@ void worker_guard_ticket(uint64_t ticket) { current_ticket = ticket; }
 
 void worker_guard_library(const void *address) {
     Dl_info info;
-    if (dladdr(address, &info)) library_start = info.dli_fbase;
+    if (address && dladdr(address, &info)) library_start = info.dli_fbase;
     void *frame[1];
     backtrace(frame, 1); // loads what it needs now: a signal handler must not
 }
 
 static void limit(int what, rlim_t value) { setrlimit(what, &(struct rlimit){value, value}); }
 
-void worker_guard_limits(int seconds, int megabytes) {
+void worker_guard_limits(int seconds, int megabytes, int file_megabytes) {
     limit(RLIMIT_CPU, (rlim_t)seconds);
     limit(RLIMIT_AS, (rlim_t)megabytes << 20);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, (rlim_t)1 << 20);
+    limit(RLIMIT_FSIZE, (rlim_t)file_megabytes << 20);
 }
 
 // ---- signals ----

@@ -5,14 +5,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Processor time and address space of this process; no core files, no large files.
-void worker_guard_limits(int seconds, int megabytes);
+// Processor time and address space of this process, and the size of a file that it writes; no core files.
+void worker_guard_limits(int seconds, int megabytes, int file_megabytes);
 
 // From now on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT answer the current request with ANSWER_CRASHED and the place, then
 // end the process.
 void worker_guard_signals(void);
 
-// Any address in the student's library: places are told from its start.
+// Any address in the student's library: places are told from its start. NULL: there is none.
 void worker_guard_library(const void *address);
 
 // The request that is being worked on.

@@ -19,24 +19,26 @@
 
 extern char **environ;
 
-bool worker_program_find(char **path) {
+bool worker_program_find(bool for_kernels, char **path) {
+    const char *name = for_kernels ? "splatlab-kernel-worker" : "splatlab-worker", *set = getenv("SPLATLAB_WORKERS");
     char program[4096];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = 0;
     char *slash = strrchr(program, '/');
     if (slash) *slash = 0;
-    const char *set = getenv("SPLATLAB_WORKER");
-    char *places[] = {mem_text(set ? set : ""), mem_format("%s/splatlab-worker", program),
-                      mem_format("%s/build/release/splatlab-worker", program),
-                      mem_text(SPLATLAB_INSTALLED_KERNELS "/../splatlab-worker")};
-    enum { PLACES = sizeof places / sizeof *places };
+    char *folders[] = {mem_text(set ? set : ""), mem_text(program), mem_format("%s/build/release", program),
+                       mem_text(SPLATLAB_INSTALLED_KERNELS "/../../../libexec/splatlab")};
+    enum { FOLDERS = sizeof folders / sizeof *folders };
     *path = NULL;
-    for (int i = 0; i < PLACES && !*path; i++)
-        if (places[i][0] && access(places[i], X_OK) == 0) *path = mem_text(places[i]);
+    for (int i = 0; i < FOLDERS && !*path; i++) {
+        char *place = mem_format("%s/%s", folders[i], name);
+        if (folders[i][0] && access(place, X_OK) == 0) *path = mem_text(place);
+        mem_free(place);
+    }
     if (!*path)
-        fail("cannot find the program splatlab-worker at %s, %s or %s; run make, or set SPLATLAB_WORKER", places[1],
-             places[2], places[3]);
-    for (int i = 0; i < PLACES; i++) mem_free(places[i]);
+        fail("cannot find the program %s in %s, %s or %s; run make, or set SPLATLAB_WORKERS to its folder", name,
+             folders[1], folders[2], folders[3]);
+    for (int i = 0; i < FOLDERS; i++) mem_free(folders[i]);
     return *path != NULL;
 }
 

@@ -9,6 +9,9 @@
 // What a worker may use.
 enum {
     WORKER_CALL_MS = 2000,        // wall clock, for one request
+    WORKER_KERNEL_MS = 5000,      // of kernels: OpenCL compiles at the first one
+    WORKER_OCLGRIND_MS = 20000,   // under Oclgrind
+    WORKER_WAKE_MS = 30000,       // until a worker for kernels has compiled them
     WORKER_CPU_SECONDS = 30,      // of one worker's life
     WORKER_MEGABYTES = 1024,      // address space
     WORKER_PRINTED_MAX = 1 << 20, // bytes on stdout and stderr together
@@ -34,8 +37,8 @@ typedef enum { HEARD, HEARD_END, HEARD_TIMEOUT, HEARD_FLOOD } Heard;
 Heard worker_process_send(WorkerProcess *worker, const void *data, size_t size, double deadline_s);
 Heard worker_process_receive(WorkerProcess *worker, void *data, size_t size, double deadline_s);
 
-// The path of the worker program, owned by the caller: $SPLATLAB_WORKER, beside this program, in its build folder, or where it
+// The path of the worker program (for kernels: splatlab-kernel-worker), owned by the caller: in $SPLATLAB_WORKERS, beside this program, in its build folder, or where it
 // was installed. False with a message that names them.
-bool worker_program_find(char **path);
+bool worker_program_find(bool for_kernels, char **path);
 
 #endif

@@ -50,11 +50,12 @@ static void draw(const Image8 images[PICTURE_COUNT], const Exercise *e) {
     GuiRect all = gui_screen();
     double em = gui_em(), column = (all.width - 2 * em) / PICTURE_COUNT;
     gui_panel_begin("pictures", all, PANEL, 0);
-    gui_draw_text(GUI_TITLE, all.x + em, all.y + em, INK, "E%02d %s", e->number, e->name);
+    gui_draw_text(GUI_TITLE, all.x + em, all.y + 0.8 * em, INK, "E%02d %s", e->number, e->name);
     for (int k = 0; k < PICTURE_COUNT; k++) {
         GuiRect place = {all.x + em + k * column, all.y + 5 * em, column - em, all.height - 6 * em};
-        gui_draw_text(GUI_BODY, place.x, place.y - 1.7 * em, INK, "%s", TITLES[k]);
-        gui_draw_picture(k, fitted(&images[k], place));
+        GuiRect picture = fitted(&images[k], place);
+        gui_draw_text(GUI_BODY, picture.x, picture.y - 1.7 * em, INK_QUIET, "%s", TITLES[k]);
+        gui_draw_picture(k, picture);
     }
     gui_panel_end();
 }

@@ -44,6 +44,25 @@ bool gpu_buffer_create(Gpu *gpu, const char *name, size_t bytes, GpuBuffer **buf
     return true;
 }
 
+bool gpu_buffer_part(GpuBuffer *whole, const char *name, size_t offset, size_t bytes, GpuBuffer **part) {
+    GpuBuffer *b = mem_alloc(1, sizeof *b);
+    cl_int code;
+    assert(!whole->mapped && offset % GPU_PART_STEP == 0 && bytes > 0 && offset + bytes <= whole->bytes);
+    *part = NULL;
+    b->gpu = whole->gpu;
+    snprintf(b->name, sizeof b->name, "%s", name);
+    b->memory = clCreateSubBuffer(whole->memory, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                                  &(cl_buffer_region){offset, bytes}, &code);
+    b->bytes = b->capacity = bytes;
+    if (opencl_ok(code, "clCreateSubBuffer", name, whole->gpu)) {
+        *part = b;
+        return true;
+    }
+    b->memory = NULL;
+    gpu_buffer_destroy(b);
+    return false;
+}
+
 void gpu_buffer_destroy(GpuBuffer *buffer) {
     if (!buffer) return;
     if (buffer->mapped) gpu_buffer_unmap(buffer);

@@ -50,11 +50,24 @@ void gpu_program_destroy(GpuProgram *program); // accepts NULL
 // A kernel of the program; destroyed with its program.
 bool gpu_kernel(GpuProgram *program, const char *name, GpuKernel **kernel);
 
+// What a kernel declares, where its program was compiled with -cl-kernel-arg-info. type: "float" also for a buffer of them.
+typedef struct {
+    char type[32];
+    bool is_buffer, is_local;
+} GpuParameter;
+int gpu_kernel_parameters(const GpuKernel *kernel);
+bool gpu_kernel_parameter(const GpuKernel *kernel, int index, GpuParameter *parameter);
+
 // ---- buffers ----
 typedef struct GpuBuffer GpuBuffer;
 
 // A zeroed buffer of that many bytes (at least 1). `name` is for error messages ("pair records").
 bool gpu_buffer_create(Gpu *gpu, const char *name, size_t bytes, GpuBuffer **buffer);
+
+// A part of another buffer, under a name of its own: `bytes` (at least 1) from `offset` on, a multiple of GPU_PART_STEP. Destroy
+// it before the whole one.
+enum { GPU_PART_STEP = 4096 };
+bool gpu_buffer_part(GpuBuffer *whole, const char *name, size_t offset, size_t bytes, GpuBuffer **part);
 void gpu_buffer_destroy(GpuBuffer *buffer);       // accepts NULL
 size_t gpu_buffer_bytes(const GpuBuffer *buffer); // what was asked for last; the capacity may be larger
 
@@ -114,6 +127,8 @@ static inline GpuRange gpu_range_2d(size_t width, size_t height, size_t group_wi
 
 // gpu_launch(kernel, gpu_range(n, 64), gpu_buffer_arg(a), gpu_int_arg(n)): sets the arguments and enqueues.
 bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int count);
+// The same with get_global_id(0) counted from `offset` on.
+bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, const GpuArg *args, int count);
 #define gpu_launch(kernel, range, ...)                                                                                 \
     gpu_launch_args(kernel, range, (const GpuArg[]){__VA_ARGS__},                                                      \
                     (int)(sizeof((const GpuArg[]){__VA_ARGS__}) / sizeof(GpuArg)))

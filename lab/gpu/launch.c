@@ -35,6 +35,10 @@ static bool launch_set_arg(GpuKernel *kernel, int index, const GpuArg *arg) {
 static size_t round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
 
 bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int count) {
+    return gpu_launch_args_from(kernel, range, 0, args, count);
+}
+
+bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, const GpuArg *args, int count) {
     Gpu *gpu = kernel->program->gpu;
     assert(range.group_width > 0 && (range.height == 0 || range.group_height > 0));
     if (count != kernel->arg_count)
@@ -46,10 +50,11 @@ bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int 
     cl_uint dimensions = range.height ? 2 : 1;
     size_t local[2] = {range.group_width, range.group_height};
     size_t global[2] = {round_up(range.width, local[0]), range.height ? round_up(range.height, local[1]) : 0};
+    const size_t first[2] = {offset, 0};
     if (!global[0]) return true; // nothing to do
     gpu->counts.launches++;
     cl_event *event = stage_next_event(gpu);
-    cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, NULL, global, local, 0, NULL, event);
+    cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, offset ? first : NULL, global, local, 0, NULL, event);
     return opencl_ok(code, "clEnqueueNDRangeKernel", kernel->name, gpu);
 }
 

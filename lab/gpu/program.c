@@ -108,3 +108,22 @@ bool gpu_kernel(GpuProgram *program, const char *name, GpuKernel **kernel) {
     *kernel = k;
     return true;
 }
+
+int gpu_kernel_parameters(const GpuKernel *kernel) { return kernel->arg_count; }
+
+bool gpu_kernel_parameter(const GpuKernel *kernel, int index, GpuParameter *parameter) {
+    const Gpu *gpu = kernel->program->gpu;
+    cl_kernel_arg_address_qualifier where = 0;
+    cl_uint i = (cl_uint)index;
+    *parameter = (GpuParameter){0};
+    cl_int code =
+        clGetKernelArgInfo(kernel->kernel, i, CL_KERNEL_ARG_ADDRESS_QUALIFIER, sizeof where, &where, NULL);
+    if (code == CL_SUCCESS)
+        code = clGetKernelArgInfo(kernel->kernel, i, CL_KERNEL_ARG_TYPE_NAME, sizeof parameter->type - 1,
+                                  parameter->type, NULL);
+    if (!opencl_ok(code, "clGetKernelArgInfo", kernel->name, gpu)) return false;
+    parameter->type[strcspn(parameter->type, "*")] = 0;
+    parameter->is_local = where == CL_KERNEL_ARG_ADDRESS_LOCAL;
+    parameter->is_buffer = where == CL_KERNEL_ARG_ADDRESS_GLOBAL || where == CL_KERNEL_ARG_ADDRESS_CONSTANT;
+    return true;
+}
