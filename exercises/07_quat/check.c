@@ -65,7 +65,7 @@ static void about_axis(Trial *trial, const double *in) {
 
 static void orthonormal(Trial *trial, const double *q) {
     Mat3 R;
-    CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), {"R", R.m, 9, true});
+    CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), ARG_OUT("R", R.m, 9));
     Mat3 T = mat3_transpose(&R), product = mat3_multiply(&T, &R);
     Vec3 x = vec3(R.m[0], R.m[1], R.m[2]), y = vec3(R.m[3], R.m[4], R.m[5]), z = vec3(R.m[6], R.m[7], R.m[8]);
     trial_near(trial, "R^T R, row by row: the identity", product.m, (double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 9, 1);
@@ -104,7 +104,7 @@ static bool allows_length(const double *in) {
 static void length(Trial *trial, const double *in) {
     double q[4], R_before[9], R[9], factor = in[Q + 1] * ldexp(1, (int)in[Q]);
     for (int i = 0; i < 4; i++) q[i] = in[i];
-    CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), {"R", R_before, 9, true});
+    CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), ARG_OUT("R", R_before, 9));
     for (int i = 0; i < 4; i++) q[i] = factor * in[i];
     CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), OUT_ARRAY(R, 9));
     trial_near(trial, "R of a multiple of q (also of -q): your R of q itself", R, R_before, 9, 1);
@@ -130,9 +130,9 @@ static void product(Trial *trial, const double *in) {
     double q[4];
     Mat3 R_a, R_b, R;
     multiply(a, b, q);
-    CALL(trial_call, trial, "quat_to_R", {"q", (double *)a, 4, false}, {"R", R_a.m, 9, true});
-    CALL(trial_call, trial, "quat_to_R", {"q", (double *)b, 4, false}, {"R", R_b.m, 9, true});
-    CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), {"R", R.m, 9, true});
+    CALL(trial_call, trial, "quat_to_R", ARG_IN("q", (double *)a, 4), ARG_OUT("R", R_a.m, 9));
+    CALL(trial_call, trial, "quat_to_R", ARG_IN("q", (double *)b, 4), ARG_OUT("R", R_b.m, 9));
+    CALL(trial_call, trial, "quat_to_R", IN_ARRAY(q, 4), ARG_OUT("R", R.m, 9));
     Mat3 want = mat3_multiply(&R_a, &R_b);
     trial_near(trial, "R of Hamilton's product a b: your R(a) times your R(b)", R.m, want.m, 9, 1);
 }
@@ -152,7 +152,7 @@ static double norm_of(const double *v, int count) {
 }
 
 static void call_vjp(Trial *trial, const double *q, const double *dR, double dq[4]) {
-    CALL(trial_call, trial, "quat_to_R_vjp", IN_ARRAY(q, 4), IN_ARRAY(dR, 9), {"dq", dq, 4, true});
+    CALL(trial_call, trial, "quat_to_R_vjp", IN_ARRAY(q, 4), IN_ARRAY(dR, 9), ARG_OUT("dq", dq, 4));
 }
 
 static void tangent(Trial *trial, const double *in) {

@@ -172,8 +172,8 @@ typedef struct {
 static Gradient call_vjp(Trial *trial, const double *in) {
     const double *q = in, *logs = in + Q, *dS = in + SHAPE;
     Gradient d;
-    CALL(trial_call, trial, "cov3_vjp", IN_ARRAY(q, 4), IN_ARRAY(logs, 3), IN_ARRAY(dS, 6), {"dq", d.q, 4, true},
-         {"dlogs", d.logs, 3, true});
+    CALL(trial_call, trial, "cov3_vjp", IN_ARRAY(q, 4), IN_ARRAY(logs, 3), IN_ARRAY(dS, 6), ARG_OUT("dq", d.q, 4),
+         ARG_OUT("dlogs", d.logs, 3));
     return d;
 }
 

@@ -215,7 +215,7 @@ static void behind(Trial *trial, const double *in) {
 static void call_jac(Trial *trial, const Camera *camera, Vec3 point_cam, double J[6]) {
     double c[CAM], t[3] = {point_cam.x, point_cam.y, point_cam.z};
     numbers_of(camera, c);
-    CALL(trial_call, trial, "project_jac", IN_ARRAY(c, CAM), IN_ARRAY(t, 3), {"J", J, 6, true});
+    CALL(trial_call, trial, "project_jac", IN_ARRAY(c, CAM), IN_ARRAY(t, 3), ARG_OUT("J", J, 6));
 }
 
 static const double WEIGHT[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12}; // of the values at -2h, -h, h, 2h

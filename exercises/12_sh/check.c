@@ -339,11 +339,8 @@ static bool picture(Subject *subject, const double *in, ImageF *yours, ImageF *r
            *rgb = mem_alloc(PIXELS * 3, sizeof *rgb), *clamped = mem_alloc(PIXELS * 3, sizeof *clamped);
     int count = directions_of(directions, pixels);
     for (int i = 0; i < count; i++) deg[i] = c.deg, memcpy(k + (size_t)i * numbers, c.k, numbers * sizeof *k);
-    const Arg args[] = {{"deg", deg, 1, false},
-                        {"d", &directions[0].x, 3, false},
-                        {"k", k, (int)numbers, false},
-                        {"rgb", rgb, 3, true},
-                        {"clamped", clamped, 3, true}};
+    const Arg args[] = {ARG_IN("deg", deg, 1), ARG_IN("d", &directions[0].x, 3), ARG_IN("k", k, (int)numbers),
+                        ARG_OUT("rgb", rgb, 3), ARG_OUT("clamped", clamped, 3)};
     bool good = subject_call_sets(subject, "sh_color", args, 5, count);
     if (good) *yours = imagef_create(SIDE, SIDE, 3), *reference = imagef_create(SIDE, SIDE, 3);
     for (int i = 0; good && i < count; i++) {

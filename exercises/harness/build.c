@@ -79,7 +79,10 @@ static bool hash_folder(SHA2_CTX *hash, const char *folder, const char *ending) 
     return good;
 }
 
-<<<<<<< HEAD
+// ---- what it is made from ----
+
+static bool is_kernel(const BuildJob *job) { return file_has_ending(job->source, ".cl"); }
+
 // What an answer includes of the exercises, such as one's own answer to an earlier one. A file that is not there is left to the
 // compiler's message.
 static bool hash_included(SHA2_CTX *hash, const BuildJob *job) {
@@ -97,32 +100,18 @@ static bool hash_included(SHA2_CTX *hash, const BuildJob *job) {
     mem_free(text);
     return good;
 }
-=======
-// ---- what it is made from ----
-
-static bool is_kernel(const BuildJob *job) { return file_has_ending(job->source, ".cl"); }
->>>>>>> harness
 
 // Everything that the result depends on: the texts (wrong variants include our solutions), the compiler and its flags.
 static bool job_hash(const BuildJob *job, const char *compiler, char hex[SHA256_DIGEST_STRING_LENGTH]) {
     SHA2_CTX hash;
     SHA256Init(&hash);
-<<<<<<< HEAD
-    char *head = file_join(job->root, "exercise.h"), *calls = file_join(job->root, "calls.h"),
-         *solutions = file_join(job->root, "solutions"), *beside = file_folder_of(job->calls);
-    bool good = hash_file(&hash, job->source) && hash_file(&hash, job->calls) && hash_file(&hash, head) &&
-<<<<<<< HEAD
-                hash_file(&hash, calls) && hash_folder(&hash, solutions, ".c") && hash_folder(&hash, beside, ".h");
-=======
-                hash_file(&hash, calls) && hash_folder(&hash, solutions) && hash_included(&hash, job);
->>>>>>> ex-b
-=======
     char *head = file_join(job->root, is_kernel(job) ? "kernel_layer.cl" : "exercise.h"),
-         *calls = file_join(job->root, "calls.h"), *solutions = file_join(job->root, "solutions");
+         *calls = file_join(job->root, "calls.h"), *solutions = file_join(job->root, "solutions"),
+         *beside = file_folder_of(job->calls);
     bool good = hash_file(&hash, job->source) && hash_file(&hash, head);
     if (!is_kernel(job))
-        good = good && hash_file(&hash, job->calls) && hash_file(&hash, calls) && hash_folder(&hash, solutions);
->>>>>>> harness
+        good = good && hash_file(&hash, job->calls) && hash_file(&hash, calls) && hash_included(&hash, job) &&
+               hash_folder(&hash, solutions, ".c") && hash_folder(&hash, beside, ".h");
     char *how = mem_format("%s %s %s", compiler, PRECISION_NAMES[job->precision], job->source);
     SHA256Update(&hash, (const uint8_t *)how, strlen(how));
     for (int i = 0; i < FLAG_COUNT; i++) SHA256Update(&hash, (const uint8_t *)FLAGS[i], strlen(FLAGS[i]) + 1);

@@ -60,13 +60,13 @@ static bool composite_mine(const HitRow *row, Mine *mine, int x, int sets, const
         memcpy(bg + 3 * i, background, 3 * sizeof *bg);
     }
     double *h = row->hits + (size_t)x * (size_t)row->capacity * NUMBERS;
-    const Arg args[] = {{"h", h, row->capacity * NUMBERS, false},
-                        {"n", n, 1, false},
-                        {"Tmin", Tmin, 1, false},
-                        {"bg", bg, 3, false},
-                        {"out", rgb, 3, true},
-                        {"Tend", transmittance, 1, true},
-                        {"returned", returned, 1, true}};
+    const Arg args[] = {ARG_IN("h", h, row->capacity * NUMBERS),
+                        ARG_IN("n", n, 1),
+                        ARG_IN("Tmin", Tmin, 1),
+                        ARG_IN("bg", bg, 3),
+                        ARG_OUT("out", rgb, 3),
+                        ARG_OUT("Tend", transmittance, 1),
+                        ARG_OUT("returned", returned, 1)};
     bool good = mine_call(mine, MINE_COMPOSITE, "composite", args, sizeof args / sizeof *args, sets);
     mem_free(n);
     return good;

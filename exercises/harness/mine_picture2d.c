@@ -21,7 +21,7 @@ static Sym2 *covariances(Mine *mine, const Scene2d *scene) {
         sx[i] = scene->blobs[i].sigma_x;
         sy[i] = scene->blobs[i].sigma_y;
     }
-    const Arg args[] = {{"theta", theta, 1, false}, {"sx", sx, 1, false}, {"sy", sy, 1, false}, {"S", S, 3, true}};
+    const Arg args[] = {ARG_IN("theta", theta, 1), ARG_IN("sx", sx, 1), ARG_IN("sy", sy, 1), ARG_OUT("S", S, 3)};
     bool is_mine = mine_call(mine, MINE_COV2, "cov2_from_rs", args, sizeof args / sizeof *args, count);
     for (int i = 0; i < count; i++)
         shapes[i] = is_mine ? (Sym2){S[3 * i], S[3 * i + 1], S[3 * i + 2]} : blob_covariance(&scene->blobs[i]);
@@ -34,7 +34,7 @@ static void conics(Mine *mine, int count, Sym2 *shapes) {
     double *numbers = mem_alloc((size_t)count * 7 + 1, sizeof *numbers);
     double *S = numbers, *K = numbers + 3 * count, *returned = numbers + 6 * count;
     for (int i = 0; i < count; i++) S[3 * i] = shapes[i].xx, S[3 * i + 1] = shapes[i].xy, S[3 * i + 2] = shapes[i].yy;
-    const Arg args[] = {{"S", S, 3, false}, {"K", K, 3, true}, {"returned", returned, 1, true}};
+    const Arg args[] = {ARG_IN("S", S, 3), ARG_OUT("K", K, 3), ARG_OUT("returned", returned, 1)};
     bool is_mine = mine_call(mine, MINE_CONIC, "conic_from_cov2", args, sizeof args / sizeof *args, count);
     for (int i = 0; i < count; i++) {
         Sym2 conic = {NAN, NAN, NAN};

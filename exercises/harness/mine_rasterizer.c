@@ -96,7 +96,7 @@ static bool call_splats(Stage *s, MinePart part, const char *function, const Arg
 static double *covariances(Stage *s) {
     double *q = field_of(s, FIELD_QUAT), *logs = field_of(s, FIELD_LOG_SCALE);
     double *S = mem_alloc((size_t)s->count * 6, sizeof *S);
-    const Arg args[] = {{"q", q, 4, false}, {"logs", logs, 3, false}, {"S", S, 6, true}};
+    const Arg args[] = {ARG_IN("q", q, 4), ARG_IN("logs", logs, 3), ARG_OUT("S", S, 6)};
     if (!call_splats(s, MINE_COV3, "cov3", args, 3))
         for (int k = 0; k < s->count; k++) {
             Sym3 a = reference_covariance_forward(logs + 3 * k, q + 4 * k);
@@ -111,11 +111,8 @@ static double *covariances(Stage *s) {
 static void project(Stage *s) {
     double *p = field_of(s, FIELD_MEAN), *uv = mem_alloc((size_t)s->count * 4, sizeof *uv), *z = uv + 2 * s->count,
            *returned = uv + 3 * s->count;
-    const Arg args[] = {{"c", s->cam, CAM_NUMBERS, false},
-                        {"p", p, 3, false},
-                        {"uv", uv, 2, true},
-                        {"z", z, 1, true},
-                        {"returned", returned, 1, true}};
+    const Arg args[] = {ARG_IN("c", s->cam, CAM_NUMBERS), ARG_IN("p", p, 3), ARG_OUT("uv", uv, 2), ARG_OUT("z", z, 1),
+                        ARG_OUT("returned", returned, 1)};
     bool is_mine = call_splats(s, MINE_CAMERA, "project", args, 5);
     for (int k = 0; is_mine && k < s->count; k++) {
         if (returned[k] == 0) continue;
@@ -134,8 +131,7 @@ static void flatten(Stage *s, double *S3) {
         Vec3 c = camera_point(s->camera, mean_of(s, k));
         memcpy(t + 3 * k, (double[]){c.x, c.y, c.z}, 3 * sizeof *t);
     }
-    const Arg args[] = {
-        {"c", s->cam, CAM_NUMBERS, false}, {"t", t, 3, false}, {"S3", S3, 6, false}, {"S2", S2, 3, true}};
+    const Arg args[] = {ARG_IN("c", s->cam, CAM_NUMBERS), ARG_IN("t", t, 3), ARG_IN("S3", S3, 6), ARG_OUT("S2", S2, 3)};
     bool is_mine = call_splats(s, MINE_EWA, "cov2_project", args, 4);
     for (int k = 0; k < s->count; k++) {
         const double *a = S3 + 6 * k, *b = S2 + 3 * k;
@@ -154,7 +150,7 @@ static void invert(Stage *s) {
         Sym2 a = s->splats[k].covariance;
         memcpy(S + 3 * k, (double[]){a.xx, a.xy, a.yy}, 3 * sizeof *S);
     }
-    const Arg args[] = {{"S", S, 3, false}, {"K", K, 3, true}, {"returned", returned, 1, true}};
+    const Arg args[] = {ARG_IN("S", S, 3), ARG_OUT("K", K, 3), ARG_OUT("returned", returned, 1)};
     bool is_mine = call_splats(s, MINE_CONIC, "conic_from_cov2", args, 3);
     for (int k = 0; k < s->count; k++) {
         Splat2 *splat = &s->splats[k];
@@ -194,11 +190,8 @@ static void colour(Stage *s) {
         deg[k] = degree;
         d[3 * k] = direction.x, d[3 * k + 1] = direction.y, d[3 * k + 2] = direction.z;
     }
-    const Arg args[] = {{"deg", deg, 1, false},
-                        {"d", d, 3, false},
-                        {"k", k_all, 3 * (degree + 1) * (degree + 1), false},
-                        {"rgb", rgb, 3, true},
-                        {"clamped", clamped, 3, true}};
+    const Arg args[] = {ARG_IN("deg", deg, 1), ARG_IN("d", d, 3), ARG_IN("k", k_all, 3 * (degree + 1) * (degree + 1)),
+                        ARG_OUT("rgb", rgb, 3), ARG_OUT("clamped", clamped, 3)};
     bool is_mine = call_splats(s, MINE_SH, "sh_color", args, 5);
     for (int k = 0; is_mine && k < s->count; k++) memcpy(s->splats[k].rgb, rgb + 3 * k, 3 * sizeof *rgb);
     mem_free(numbers);

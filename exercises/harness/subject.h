@@ -33,6 +33,11 @@ typedef struct {
     { #x, (x), (count), true, false }
 #define UPDATED_ARRAY(x, count)                                                                                        \
     { #x, (x), (count), true, true }
+// With a name that is not the variable's.
+#define ARG_IN(name, numbers, count)                                                                                   \
+    { name, (double *)(numbers), (count), false, false }
+#define ARG_OUT(name, numbers, count)                                                                                  \
+    { name, (numbers), (count), true, false }
 // `f(object, name, args, number of args)` with the arguments written in a row.
 #define CALL(f, object, name, ...)                                                                                     \
     f(object, name, (Arg[]){__VA_ARGS__}, (int)(sizeof((Arg[]){__VA_ARGS__}) / sizeof(Arg)))

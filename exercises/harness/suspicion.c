@@ -90,14 +90,6 @@ static bool build_variants(const char *root, const Exercise *exercise, Precision
     return good;
 }
 
-<<<<<<< HEAD
-static bool take_from(const char *library, const Rung *rung, Precision precision, Testimony *testimony) {
-    Subject *subject = library ? subject_start(library, "a wrong variant") : NULL;
-    if (subject) testimony_take(rung, precision, subject, testimony);
-    subject_stop(subject);
-    return subject != NULL;
-}
-
 // Of the cases in which `answer` is not `ours`: how many are `variant`'s? And how many of all, which tells a variant from one that
 // makes the same mistake and more.
 typedef struct {
@@ -106,12 +98,6 @@ typedef struct {
 
 static Agreement agree(const Testimony *answer, const Testimony *ours, const Testimony *variant, double same) {
     Agreement a = {0};
-=======
-// Of the cases in which `answer` is not `ours`: how many are `variant`'s?
-static void agree(const Testimony *answer, const Testimony *ours, const Testimony *variant, double same, int *matched,
-                  int *cases) {
-    *matched = *cases = 0;
->>>>>>> harness
     for (int i = 0; i < CASES_ALL; i++) {
         if (answer->of[i].count == 0) continue;
         bool is_variants = numbers_same(&answer->of[i], &variant->of[i], same);
@@ -152,15 +138,8 @@ bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung
     double best = 0;
     for (int i = 0; good && i < count; i++) {
         Testimony variant = {0};
-<<<<<<< HEAD
-        Agreement a = {0};
-        if (take_from(jobs[i + 1].library, rung, precision, &variant))
-            a = agree(&answer, &ours, &variant, SAME[precision]);
-=======
-        int matched = 0, cases = 0;
         if (subjects[i + 1]) testimony_take(rung, precision, subjects[i + 1], &variant);
-        agree(&answer, &ours, &variant, SAME[precision], &matched, &cases);
->>>>>>> harness
+        Agreement a = agree(&answer, &ours, &variant, SAME[precision]);
         testimony_free(&variant);
         if (a.matched < AGREES_PART * a.cases || rank_of(&a) <= best) continue;
         best = rank_of(&a);

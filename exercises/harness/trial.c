@@ -20,15 +20,7 @@ static void append(char *text, size_t size, const char *more) {
     snprintf(text + have, size - have, "%s", more);
 }
 
-<<<<<<< HEAD
-<<<<<<< HEAD
-enum { SHOWN_OF_ARRAY = 18 };
-=======
-enum { SHOWN_OF_ARRAY = 18 }; // a camera in full
->>>>>>> ex-b
-=======
-enum { WHOLE_ARRAY = 16, SHOWN_OF_LONGER = 4 };
->>>>>>> harness
+enum { WHOLE_ARRAY = 18 /* a camera */, SHOWN_OF_LONGER = 4 };
 
 // "theta = 0.5" or "bg = (0, 0, 0)".
 static void append_arg(char *text, size_t size, const Arg *arg) {
