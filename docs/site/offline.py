@@ -13,6 +13,7 @@ DOCS = os.path.join(ROOT, "docs")
 KATEX = "/usr/share/javascript/katex"
 SHOWN = (".md", ".png", ".jpg")  # what a browser shows from docs/ as it is
 LINK = re.compile(r"(\]\()([^)#\s]+)([^)]*\))")
+FORMULA = re.compile(r"^```math\n.*?^```$", re.M | re.S)
 
 linked = set()  # paths from ROOT
 
@@ -31,6 +32,8 @@ def on_page_markdown(markdown, page, **_):
         end = "/index.html" if os.path.isdir(os.path.join(ROOT, path)) else ".txt"
         return f"{match[1]}source:{path}{end})"  # to MkDocs an address that it need not know
 
+    # Fenced formulas come into the page as they are, where j<i would begin a tag.
+    markdown = FORMULA.sub(lambda match: match[0].replace("<", "\\lt ").replace(">", "\\gt "), markdown)
     # In a repository's browser what stands in <details> is Markdown anyway.
     return LINK.sub(follow, markdown).replace("<details>", '<details markdown="1">')
 

@@ -108,14 +108,20 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.addresses, self.formulas = [], 0
+        self.addresses, self.formulas, self.torn, self.formula = [], 0, 0, None  # formula: the tag that holds one
 
     def handle_starttag(self, tag, attributes):
         given = dict(attributes)
-        self.formulas += "arithmatex" in (given.get("class") or "").split()
+        self.torn += self.formula is not None  # what looks like a tag in a formula: j<i
+        if "arithmatex" in (given.get("class") or "").split():
+            self.formulas, self.formula = self.formulas + 1, tag
         for key in ("href", "src"):
             if given.get(key):
                 self.addresses.append((tag, given[key]))
+
+    def handle_endtag(self, tag):
+        if tag == self.formula:
+            self.formula = None
 
 
 def site_findings(site):
@@ -152,6 +158,8 @@ def lost_formulas(root, site):
         page.feed(read(site, "index.html" if name == "README.md" else name[:-3] + ".html"))
         if page.formulas != wanted:
             yield f"{name}: {wanted} formulas, {page.formulas} in the site"
+        if page.torn:
+            yield f"{name}: {page.torn} tags inside of formulas; is a < not escaped?"
 
 
 def build_site(root):
