@@ -235,9 +235,12 @@ endif
 test: all $(TESTS) $(KERNELS_COMPILE) ## run every test (minutes)
 	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKER=$(WORKER) tests/run $(TESTS) tests/lint/selftest.py tests/lint/pages.py
 
+GOLDEN_TESTS := $(BUILD)/tests/app/test_cmd_demo $(BUILD)/tests/app/test_widget
+
 .PHONY: golden
-golden: all $(BUILD)/tests/app/test_cmd_demo ## take the demos' pictures as they are now for the good ones: look at them first
-	@SPLATLAB_GOLDEN=write SPLATLAB=$(PROGRAM) $(BUILD)/tests/app/test_cmd_demo >/dev/null && git diff --stat tests/golden
+golden: all $(GOLDEN_TESTS) ## take the demos' pictures as they are now for the good ones: look at them first
+	@for test in $(GOLDEN_TESTS); do SPLATLAB_GOLDEN=write SPLATLAB=$(PROGRAM) $$test >/dev/null || exit 1; done
+	@git status --short tests/golden
 
 .PHONY: test-long
 test-long: all ## what takes longer: Oclgrind, resume, thread count, then all tests under ASan and UBSan

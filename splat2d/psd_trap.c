@@ -139,13 +139,7 @@ void psd_trap_step(PsdTrap *trap) {
     for (int way = 0; way < PSD_WAY_COUNT; way++) walk_step(trap, &trap->walks[way]);
 }
 
-void psd_trap_set(PsdTrap *trap, PsdWay way, Sym2 covariance) {
-    const double raw[3] = {covariance.xx, covariance.xy, covariance.yy};
-    Eigen2 eigen = sym2_eigen(covariance);
-    if (way == PSD_RAW) {
-        start_from(trap, &trap->walks[way], way, raw);
-    } else if (eigen.minor > 0) {
-        const double factored[3] = {eigen.angle_rad, log(eigen.major) / 2, log(eigen.minor) / 2};
-        start_from(trap, &trap->walks[way], way, factored);
-    }
+void psd_trap_set(PsdTrap *trap, PsdWay way, const double values[3]) {
+    const double kept[3] = {values[0], values[1], values[2]}; // they may stand in the walk itself
+    start_from(trap, &trap->walks[way], way, kept);
 }

@@ -43,9 +43,8 @@ void psd_trap_restart(PsdTrap *trap); // both walks back to the start, same targ
 // One step of Adam on both. A walk whose gradient is no longer finite stays where it is.
 void psd_trap_step(PsdTrap *trap);
 
-// Moves a walk by hand; the optimiser goes on from there as from a new start. Does nothing for PSD_FACTORED and an
-// invalid Sigma: it has no such numbers.
-void psd_trap_set(PsdTrap *trap, PsdWay way, Sym2 covariance);
+// Moves a walk by hand to three numbers of its own kind; the optimiser goes on from there as from a new start.
+void psd_trap_set(PsdTrap *trap, PsdWay way, const double values[3]);
 
 Sym2 psd_walk_covariance(const PsdWalk *walk);
 double psd_trap_loss(const PsdTrap *trap, const PsdWalk *walk); // mean squared difference of the pictures

@@ -59,9 +59,10 @@ GuiMouse gui_mouse(void);
 // How often a GLFW_KEY_... went down (or repeated) with exactly these modifiers; 0 while a text field has the keyboard.
 enum { GUI_PLAIN = 0, GUI_SHIFT = 1, GUI_CTRL = 2 }; // as GLFW_MOD_...
 int gui_key(int key, int modifiers);
-bool gui_ctrl(void);       // is held
-bool gui_shift(void);      // is held
-bool gui_is_holding(void); // a mouse button or a key is down, or a control is being changed
+bool gui_key_pressed(void); // did any key go down, not counting repetitions of one that is held?
+bool gui_ctrl(void);        // is held
+bool gui_shift(void);       // is held
+bool gui_is_holding(void);  // a mouse button or a key is down, or a control is being changed
 
 // ---- where controls go ----
 

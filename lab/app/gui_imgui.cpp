@@ -274,6 +274,8 @@ int gui_key(int key, int modifiers) {
     return window_key_count(gui.window, key, modifiers);
 }
 
+bool gui_key_pressed(void) { return gui.window && window_key_pressed(gui.window); }
+
 bool gui_ctrl(void) { return ImGui::GetIO().KeyCtrl; }
 bool gui_shift(void) { return ImGui::GetIO().KeyShift; }
 

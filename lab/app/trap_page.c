@@ -5,11 +5,15 @@
 #include "lab/app/palette.h"
 #include "lab/base/mem.h"
 
+#include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { PICTURE_SIDE = 220 };
 static const double SLIDER_MAX = 3; // units^2
+static const double RATE_MIN = 0.002, RATE_MAX = 0.2;
+static const double RAW_STEP = 0.05, TURN_STEP_RAD = M_PI / 36, LOG_STEP = 0.05; // of a key
 
 TrapPage *trap_page_create(void) {
     TrapPage *page = mem_alloc(1, sizeof *page);
@@ -97,14 +101,52 @@ void trap_page_stage(TrapPage *page, GuiRect stage, int first_picture) {
     gui_panel_end();
 }
 
-// ---- panel ----
+// ---- keys and panel ----
+
+static int steps_of(int key) { return gui_key(key, GUI_PLAIN) - gui_key(key, GUI_SHIFT); }
+
+static void raw_keys(TrapPage *page) {
+    static const int keys[3] = {GLFW_KEY_I, GLFW_KEY_J, GLFW_KEY_K};
+    double moved[3];
+    bool any = false;
+    for (int i = 0; i < 3; i++) {
+        int steps = steps_of(keys[i]);
+        moved[i] = page->trap.walks[PSD_RAW].values[i] + RAW_STEP * steps;
+        any = any || steps;
+    }
+    if (!any) return;
+    psd_trap_set(&page->trap, PSD_RAW, moved);
+    page->is_stale = true;
+}
+
+static void factored_keys(TrapPage *page) {
+    const double *v = page->trap.walks[PSD_FACTORED].values;
+    int turns = steps_of(GLFW_KEY_T), x = steps_of(GLFW_KEY_X), y = steps_of(GLFW_KEY_Y);
+    if (!turns && !x && !y) return;
+    psd_trap_set(&page->trap, PSD_FACTORED,
+                 (double[3]){v[0] + TURN_STEP_RAD * turns, v[1] + LOG_STEP * x, v[2] + LOG_STEP * y});
+    page->is_stale = true;
+}
+
+void trap_page_keys(TrapPage *page) {
+    if (gui_key(GLFW_KEY_SPACE, GUI_PLAIN) % 2) page->is_running = !page->is_running;
+    int steps = gui_key(GLFW_KEY_ENTER, GUI_PLAIN), rates = steps_of(GLFW_KEY_V);
+    if (steps) trap_page_advance(page, steps);
+    if (rates) page->trap.learning_rate = fmin(RATE_MAX, fmax(RATE_MIN, page->trap.learning_rate * pow(1.25, rates)));
+    raw_keys(page);
+    factored_keys(page);
+}
 
 static void raw_sliders(TrapPage *page) {
-    const double *values = page->trap.walks[PSD_RAW].values;
-    Sym2 moved = {values[0], values[1], values[2]};
-    bool changed = gui_slider("Σ xx", &moved.xx, -SLIDER_MAX, SLIDER_MAX, "%.3f", false);
-    changed |= gui_slider("Σ xy", &moved.xy, -SLIDER_MAX, SLIDER_MAX, "%.3f", false);
-    changed |= gui_slider("Σ yy", &moved.yy, -SLIDER_MAX, SLIDER_MAX, "%.3f", false);
+    static const char *const labels[3] = {"Σ xx", "Σ xy", "Σ yy"};
+    static const char *const keys[3] = {"I, Shift I", "J, Shift J", "K, Shift K"};
+    double moved[3];
+    bool changed = false;
+    memcpy(moved, page->trap.walks[PSD_RAW].values, sizeof moved);
+    for (int i = 0; i < 3; i++) {
+        changed |= gui_slider(labels[i], &moved[i], -SLIDER_MAX, SLIDER_MAX, "%.3f", false);
+        gui_hint(keys[i]);
+    }
     if (!changed) return;
     psd_trap_set(&page->trap, PSD_RAW, moved);
     page->is_stale = true;
@@ -118,7 +160,7 @@ static void factored_sliders(TrapPage *page) {
     changed |= gui_slider("σy", &sigma_y, 0.05, 3, "%.3f", true);
     if (!changed) return;
     sigma_x = fmax(1e-3, sigma_x), sigma_y = fmax(1e-3, sigma_y); // typed
-    psd_trap_set(&page->trap, PSD_FACTORED, covariance_from_angle(theta * M_PI / 180, sigma_x, sigma_y));
+    psd_trap_set(&page->trap, PSD_FACTORED, (double[3]){theta * M_PI / 180, log(sigma_x), log(sigma_y)});
     page->is_stale = true;
 }
 
@@ -146,9 +188,10 @@ static void optimiser(TrapPage *page) {
     gui_hint("Space");
     gui_same_line(0.25);
     if (gui_button("Step", third)) trap_page_advance(page, 1);
+    gui_hint("Return");
     gui_same_line(0.25);
     if (gui_button("Restart", third)) trap_page_restart(page);
-    gui_slider("rate", &page->trap.learning_rate, 0.002, 0.2, "%.3f", true);
+    gui_slider("rate", &page->trap.learning_rate, RATE_MIN, RATE_MAX, "%.3f", true);
     page->trap.learning_rate = fmin(1, fmax(1e-6, page->trap.learning_rate));
     gui_hint("Adam's learning rate, the same for both walks");
 }

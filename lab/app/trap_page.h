@@ -29,6 +29,9 @@ void trap_page_restart(TrapPage *page);
 void trap_page_panel(TrapPage *page);
 void trap_page_stage(TrapPage *page, GuiRect stage, int first_picture);
 
+// Space runs and freezes, Return steps; I J K move the raw entries, X Y T the factored numbers, V the rate: up, with Shift down.
+void trap_page_keys(TrapPage *page);
+
 // The parts of the stage: trap_cone.c, trap_plot.c
 void trap_cone(TrapPage *page, GuiRect place);
 void trap_plot(const TrapPage *page, GuiRect place);

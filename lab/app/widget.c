@@ -116,6 +116,9 @@ static void show_trap(Widget *widget, GuiRect stage, GuiRect panel) {
 
 bool widget_frame(Widget *widget) {
     GuiRect whole = gui_screen();
+    // What the key before did is a step of its own, though that key may still be down; but a drag stays whole.
+    if (gui_key_pressed() && !gui_mouse().down[GUI_LEFT])
+        history_record(&widget->history, &widget->scene, widget->active);
     if (widget->demo) widget_demo_keys(widget);
     widget_keys(widget);
     double panel = widget->hides_panel ? 0 : fmin(PANEL_EMS * gui_em(), whole.width / 2);

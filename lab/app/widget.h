@@ -1,7 +1,8 @@
 // widget.h - the 2-D lesson in a window: its state, and the parts that each draw a piece of a frame and act on it.
 //
 // One frame: widget_frame() lays the screen out, then each part shows its piece and changes the scene at once. At the end
-// of a frame in which nothing is held, or the mouse lets go, a changed scene becomes a step of the history: a whole drag is one.
+// of a frame in which nothing is held, or the mouse lets go, and before a key acts, a changed scene becomes a step of the
+// history: a whole drag is one, and so is a key, however long it is held.
 #ifndef SPLATLAB_LAB_APP_WIDGET_H
 #define SPLATLAB_LAB_APP_WIDGET_H
 

@@ -67,13 +67,18 @@ bool widget_write_state(Widget *widget) {
 }
 
 bool widget_write_places(Widget *widget) {
+    double minor[PSD_WAY_COUNT] = {0, 0}; // the smaller eigenvalue of either walk
+    for (int way = 0; widget->trap && way < PSD_WAY_COUNT; way++)
+        minor[way] = sym2_eigen(psd_walk_covariance(&widget->trap->trap.walks[way])).minor;
     const PlacesNumber numbers[] = {{"zoom", screen_unit(widget->screen) * widget->canvas.view.zoom},
                                     {"probe x", widget->probe[0]},
                                     {"probe y", widget->probe[1]},
                                     {"active", widget->active},
                                     {"step", widget->step},
                                     {"playing", widget->is_playing},
-                                    {"asking", widget->is_asking}};
+                                    {"asking", widget->is_asking},
+                                    {"raw minor", minor[PSD_RAW]},
+                                    {"factored minor", minor[PSD_FACTORED]}};
     return places_write(widget->places_path, &widget->places, widget->screen, numbers,
                         sizeof numbers / sizeof numbers[0]);
 }

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const double SIGMA_FACTOR = 1.05, TURN_RAD = M_PI / 36, OPACITY_STEP = 0.05, MOVE_PX = 1, MOVE_FAR_PX = 10;
-static const double KEY_ZOOM = 1.25;
+static const double KEY_ZOOM = 1.25, STOP_FACTOR = 1.5, STOP_MIN = 1e-4, STOP_MAX = 0.5;
 
 static double clamp(double value, double low, double high) { return fmin(high, fmax(low, value)); }
 
@@ -60,7 +60,10 @@ static void look_keys(Widget *widget) {
         widget->is_moved = true;
     }
     if (gui_key(GLFW_KEY_0, GUI_PLAIN) + gui_key(GLFW_KEY_HOME, GUI_PLAIN)) widget_fit(widget);
-    if (unattenuated || discs || layers || zooms) widget->is_stale = true;
+    int stops = steps_of(GLFW_KEY_S);
+    double *stop = &widget->settings.rule.stop;
+    if (stops) *stop = clamp(*stop * pow(STOP_FACTOR, stops), STOP_MIN, STOP_MAX);
+    if (unattenuated || discs || layers || zooms || stops) widget->is_stale = true;
     if (gui_key(GLFW_KEY_H, GUI_PLAIN) % 2) widget->shows_outlines = !widget->shows_outlines;
     if (gui_key(GLFW_KEY_P, GUI_PLAIN) % 2) widget->probe_frozen = !widget->probe_frozen;
 }
@@ -84,7 +87,7 @@ void widget_keys(Widget *widget) {
     if (gui_key(GLFW_KEY_M, GUI_PLAIN) % 2)
         widget_show_page(widget, widget->page == PAGE_BLOBS ? PAGE_TRAP : PAGE_BLOBS);
     if (widget->page == PAGE_TRAP) {
-        if (gui_key(GLFW_KEY_SPACE, GUI_PLAIN) % 2) widget->trap->is_running = !widget->trap->is_running;
+        trap_page_keys(widget->trap);
         return;
     }
     blob_keys(widget);

@@ -117,7 +117,8 @@ static void switches(Widget *widget) {
             GUI_SMALL, ACCENT_WARM,
             "C = b + Σ T α′ c: the background b counts fully behind opaque blobs. Correct: C = Σ T α′ c + T b.");
     stale |= gui_slider("stop at T <", &widget->settings.rule.stop, 1e-4, 0.5, "%.4f", true);
-    gui_hint("Early stop: a pixel whose transmittance is below this counts as opaque, and nothing behind it is read.");
+    gui_hint("S, Shift S: early stop. A pixel whose transmittance is below this counts as opaque, and nothing behind "
+             "it is read.");
     widget->settings.rule.stop = fmin(1, fmax(0, widget->settings.rule.stop));
     if (stale) widget->is_stale = true;
 }

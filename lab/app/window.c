@@ -18,6 +18,7 @@ struct Window {
         int key, modifiers;
     } keys[KEY_EVENTS_MAX]; // went down in the last poll
     int key_count;
+    bool was_press;  // one of them was no repetition
     double density;  // that was asked for; 0: the display's
     int windowed[4]; // x, y, width, height to return to from full screen
 };
@@ -44,6 +45,7 @@ static void note_key(GLFWwindow *handle, int key, int scancode, int action, int 
     Window *window = glfwGetWindowUserPointer(handle);
     (void)scancode;
     if (action == GLFW_RELEASE || window->key_count == KEY_EVENTS_MAX) return;
+    window->was_press = window->was_press || action == GLFW_PRESS;
     window->keys[window->key_count].key = key;
     window->keys[window->key_count++].modifiers = modifiers & MODIFIERS;
 }
@@ -139,11 +141,14 @@ void window_size(const Window *window, int *width, int *height) {
 
 void window_poll(Window *window, double wait_s) {
     window->key_count = 0;
+    window->was_press = false;
     if (wait_s > 0)
         glfwWaitEventsTimeout(wait_s);
     else
         glfwPollEvents();
 }
+
+bool window_key_pressed(const Window *window) { return window->was_press; }
 
 int window_key_count(const Window *window, int key, int modifiers) {
     int count = 0;

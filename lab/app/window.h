@@ -28,6 +28,8 @@ void window_poll(Window *window, double wait_s); // takes events; waits that lon
 // (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL). Events are counted, so that a key that is down for less than a frame is not lost.
 int window_key_count(const Window *window, int key, int modifiers);
 
+bool window_key_pressed(const Window *window); // did any key go down in the last poll, not counting repetitions?
+
 void window_toggle_full_screen(Window *window);
 
 void window_begin(Window *window, const float rgb[3]); // clears the whole window

@@ -226,7 +226,7 @@ static void space_pauses_s_steps_and_closing_saves(void **state) {
     session_do("key s; key s");
     assert_true(session_state("step") == step + 2);
     session_place("Step", middle, size);
-    session_do("mousemove %.0f %.0f; click 1", middle[0], middle[1]);
+    session_do("mousemove %.0f %.0f; mousedown 1; mouseup 1", middle[0], middle[1]);
     assert_true(session_state("step") == step + 3);
     session_do("key r");
     assert_true(session_state("step") == 0);

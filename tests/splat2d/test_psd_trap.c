@@ -74,14 +74,16 @@ static void a_walk_is_moved_by_hand(void **state) {
     (void)state;
     static PsdTrap trap;
     psd_trap_begin(&trap);
-    Sym2 valid = covariance_from_angle(0.3, 2, 0.5), invalid = {1, 2, 1};
-    psd_trap_set(&trap, PSD_FACTORED, valid);
-    psd_trap_set(&trap, PSD_FACTORED, invalid); // there are no such numbers
-    psd_trap_set(&trap, PSD_RAW, invalid);
+    Sym2 valid = covariance_from_angle(0.3, 0.5, 2);
+    psd_trap_set(&trap, PSD_FACTORED, (double[3]){0.3, log(0.5), log(2)});
+    psd_trap_set(&trap, PSD_RAW, (double[3]){1, 2, 1}); // no Gaussian
     Sym2 now = psd_walk_covariance(&trap.walks[PSD_FACTORED]);
     support_near(now.xx, valid.xx, 1e-12, "xx");
     support_near(now.xy, valid.xy, 1e-12, "xy");
     assert_true(psd_walk_covariance(&trap.walks[PSD_RAW]).xy == 2);
+    // A round blob has an angle, too, though one does not see it.
+    psd_trap_set(&trap, PSD_FACTORED, (double[3]){0.7, 0, 0});
+    assert_true(trap.walks[PSD_FACTORED].values[0] == 0.7 && trap.walks[PSD_FACTORED].step == 0);
 }
 
 static void the_cone_is_where_the_smaller_eigenvalue_is_positive(void **state) {

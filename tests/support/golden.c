@@ -1,6 +1,7 @@
 #include "tests/support/golden.h"
 
 #include "lab/base/fail.h"
+#include "lab/base/mem.h"
 #include "lab/io/file.h"
 #include "lab/io/image_io.h"
 #include "tests/support/support.h"
@@ -10,6 +11,11 @@
 
 static const char GOLDEN_FOLDER[] = "tests/golden", FAILED_FOLDER[] = "build/golden";
 enum { DIFFERENCE_GAIN = 8 };
+
+static bool is_writing(void) {
+    const char *wish = getenv("SPLATLAB_GOLDEN");
+    return wish && strcmp(wish, "write") == 0;
+}
 
 static Image8 difference_of(const Image8 *yours, const Image8 *expected) {
     Image8 difference = image8_create(yours->width, yours->height, 3);
@@ -52,13 +58,12 @@ static bool compare(const Image8 *yours, const Image8 *expected, const char *nam
 
 bool golden_matches(const char *path, const char *name) {
     char golden[4096];
-    const char *wish = getenv("SPLATLAB_GOLDEN");
     Image8 picture = {0}, expected = {0};
     snprintf(golden, sizeof golden, "%s/%s.png", GOLDEN_FOLDER, name);
     if (!image_load8(path, &picture)) fail_msg("%s", fail_text());
     Image8 yours = image8_downscale(&picture, GOLDEN_SHRINK);
     bool good = true;
-    if (wish && strcmp(wish, "write") == 0)
+    if (is_writing())
         good = file_make_folder(GOLDEN_FOLDER) && image_save8(golden, &yours);
     else if (image_load8(golden, &expected))
         good = compare(&yours, &expected, name);
@@ -69,4 +74,19 @@ bool golden_matches(const char *path, const char *name) {
     image8_destroy(&yours);
     image8_destroy(&expected);
     return good;
+}
+
+bool golden_text_matches(const char *text, const char *name) {
+    char golden[4096], failed[4096], *expected = NULL;
+    size_t size;
+    snprintf(golden, sizeof golden, "%s/%s", GOLDEN_FOLDER, name);
+    snprintf(failed, sizeof failed, "%s/%s", FAILED_FOLDER, name);
+    if (is_writing()) return file_make_folder(GOLDEN_FOLDER) && file_write(golden, text, strlen(text));
+    bool good = file_read(golden, &expected, &size) && strcmp(text, expected) == 0;
+    mem_free(expected);
+    if (good) return true;
+    print_message("%s is not as it was\n", name);
+    if (file_make_folder(FAILED_FOLDER) && file_write(failed, text, strlen(text)))
+        print_message("    yours: %s\n    expected: %s\n", failed, golden);
+    return false;
 }

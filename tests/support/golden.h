@@ -15,4 +15,7 @@ static const double GOLDEN_MOST = 6, GOLDEN_MEAN = 0.25;
 // were written. With SPLATLAB_GOLDEN=write in the environment the picture becomes the golden one: look at it first.
 bool golden_matches(const char *path, const char *name);
 
+// Is the text tests/golden/NAME, to the byte? Likewise.
+bool golden_text_matches(const char *text, const char *name);
+
 #endif
