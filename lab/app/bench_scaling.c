@@ -1,12 +1,12 @@
 // bench_scaling.c - a child process for each thread count sends its rows through a pipe as JSON.
 #include "lab/app/bench_scaling.h"
 
+#include "lab/app/bench_fit.h"
 #include "lab/app/bench_measure.h"
 #include "lab/base/fail.h"
 #include "lab/base/log.h"
 #include "splat3d/bench_scene.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -110,33 +110,6 @@ static bool measure_in_child(const Plan *plan, json_t *rows) {
 
 static double number(const json_t *row, const char *key) { return json_number_value(json_object_get(row, key)); }
 
-static double pixels_times_splats(const json_t *row) {
-    return number(row, "width") * number(row, "height") * number(row, "splats");
-}
-
-static double evaluated(const json_t *row) { return number(row, "evaluated_pairs"); }
-
-// Slope of ln(cost) over ln(work), and the scatter around it: the standard deviation of ln(cost) from the line.
-static json_t *fit(const json_t *rows, int threads, double (*work)(const json_t *)) {
-    double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
-    size_t i;
-    const json_t *row;
-    json_array_foreach((json_t *)rows, i, row) {
-        if (number(row, "threads") != threads) continue;
-        const double x = log(work(row)), y = log(number(row, "blend_cpu_ms"));
-        n++, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y, sum_yy += y * y;
-    }
-    const double xx = sum_xx - sum_x * sum_x / n, xy = sum_xy - sum_x * sum_y / n, yy = sum_yy - sum_y * sum_y / n;
-    return json_pack("{sf sf}", "exponent", xy / xx, "scatter", sqrt(fmax(yy - xy * xy / xx, 0) / n));
-}
-
-static void add_fits(json_t *root, const json_t *rows, int threads) {
-    json_t *fits = json_object_get(root, "fits");
-    json_array_append_new(fits,
-                          json_pack("{si so so}", "threads", threads, "evaluated_pairs", fit(rows, threads, evaluated),
-                                    "pixels_times_splats", fit(rows, threads, pixels_times_splats)));
-}
-
 bool bench_scaling_run(const char *device, const char *kernels, uint64_t seed, int rounds, int most_threads,
                        json_t **root) {
     json_t *rows = json_array();
@@ -146,7 +119,7 @@ bool bench_scaling_run(const char *device, const char *kernels, uint64_t seed, i
     for (int i = 0; done && i < counts; i++) {
         const Plan plan = {device, kernels, seed, rounds, i ? most_threads : 1};
         done = measure_in_child(&plan, rows);
-        if (done) add_fits(*root, rows, plan.threads);
+        if (done) json_array_append_new(json_object_get(*root, "fits"), bench_fit_rows(rows, plan.threads));
     }
     json_decref(rows);
     if (!done) json_decref(*root);
@@ -157,17 +130,23 @@ void bench_scaling_print(const json_t *root) {
     size_t i;
     const json_t *row;
     printf("threads      size   splats  tile pairs  evaluated   forward  backward  ns/pair     frame      step\n");
-    json_array_foreach(json_object_get(root, "rows"), i, row) printf(
-        "%7.0f %5.0fx%-4.0f %7.0f %11.0f %8.2f M %6.2f ms %6.2f ms %8.3f %6.2f ms %6.2f ms\n", number(row, "threads"),
-        number(row, "width"), number(row, "height"), number(row, "splats"), number(row, "tile_pairs"),
-        1e-6 * evaluated(row), number(row, "blend_forward_ms"), number(row, "blend_backward_ms"),
-        1e6 * number(row, "blend_cpu_ms") / evaluated(row), number(row, "frame_ms"), number(row, "step_ms"));
+    json_array_foreach(json_object_get(root, "rows"), i, row)
+        printf("%7.0f %5.0fx%-4.0f %7.0f %11.0f %8.2f M %6.2f ms %6.2f ms %8.3f %6.2f ms %6.2f ms\n",
+               number(row, "threads"), number(row, "width"), number(row, "height"), number(row, "splats"),
+               number(row, "tile_pairs"), 1e-6 * number(row, "evaluated_pairs"), number(row, "blend_forward_ms"),
+               number(row, "blend_backward_ms"), 1e6 * number(row, "blend_cpu_ms") / number(row, "evaluated_pairs"),
+               number(row, "frame_ms"), number(row, "step_ms"));
     json_array_foreach(json_object_get(root, "fits"), i, row) {
         const json_t *pairs = json_object_get(row, "evaluated_pairs"),
-                     *all = json_object_get(row, "pixels_times_splats");
+                     *all = json_object_get(row, "pixels_times_splats"), *law = json_object_get(row, "law");
         printf("%.0f threads: cost of both blends ~ evaluated pairs^%.2f (scatter %.0f %%), ~ (pixels x splats)^%.2f "
                "(scatter %.0f %%)\n",
                number(row, "threads"), number(pairs, "exponent"), 100 * number(pairs, "scatter"),
                number(all, "exponent"), 100 * number(all, "scatter"));
+        printf("   CPU time of both blends = %.2f ns x evaluated pairs + %.1f ns x tile pairs + %.1f ns x pixels, "
+               "within %.0f %% "
+               "(at most %.0f %%)\n",
+               number(law, "ns_per_evaluated_pair"), number(law, "ns_per_tile_pair"), number(law, "ns_per_pixel"),
+               100 * number(law, "scatter"), 100 * number(law, "worst"));
     }
 }

@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 // device, kernels: as --device and --kernels give them. most_threads: the second thread count, besides 1. *root gets "rows", one for each
-// run, and "fits", the exponents for each thread count: cost = constant * work^exponent, by least squares of the logarithms.
+// run, and "fits", the laws for each thread count (bench_fit.h).
 // Call it before any device is opened: the number of a CPU device's threads is fixed when the first one is, so each count has a process of its own.
 bool bench_scaling_run(const char *device, const char *kernels, uint64_t seed, int rounds, int most_threads,
                        json_t **root);
