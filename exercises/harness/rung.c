@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SHRINK_TRIALS = 300, SHRINK_CRASHES = 20 };
+enum { SHRINK_TRIALS = 300, SHRINK_CRASHES = 20, SHRINK_KERNEL_CRASHES = 2 };
 
 static void round_numbers(double *in, int count) {
     for (int i = 0; i < count; i++) in[i] = (double)(float)in[i];
@@ -72,10 +72,11 @@ typedef struct {
 
 static bool still_fails(Shrink *s, const double *in) {
     if (s->rung->allows && !s->rung->allows(in)) return false;
-    if (s->trials++ >= SHRINK_TRIALS || s->crashes >= SHRINK_CRASHES) return false;
+    int crashes = subject_is_kernel(s->subject) ? SHRINK_KERNEL_CRASHES : SHRINK_CRASHES;
+    if (s->trials++ >= SHRINK_TRIALS || s->crashes >= crashes) return false;
     Trial trial = try_case(s->rung, s->subject, s->result->precision, s->tolerance, in);
     bool fails = trial.failed && trial.failure.trouble.kind == s->result->failure.trouble.kind;
-    if (trial.failure.trouble.kind != TROUBLE_NONE) s->crashes++;
+    if (trial.failure.trouble.kind == TROUBLE_CRASHED) s->crashes++;
     if (fails) {
         s->result->failure = trial.failure;
         memcpy(s->result->in, in, sizeof s->result->in);

@@ -62,6 +62,8 @@ Subject *subject_start(const char *library, const char *file) { return start(lib
 
 Subject *subject_again_oclgrind(const Subject *s) { return start(s->library, s->file, true); }
 
+bool subject_is_kernel(const Subject *s) { return s->is_kernel; }
+
 bool subject_has_oclgrind(void) {
     const char *path = getenv("PATH");
     char *folders = mem_text(path ? path : ""), *rest = folders;
@@ -192,7 +194,7 @@ static bool say_silence(Subject *s, const char *function, Heard heard) {
         return trouble(s, TROUBLE_FLOOD, "%s() printed more than %d MB and was stopped", function,
                        WORKER_PRINTED_MAX >> 20);
     if (WIFSIGNALED(status))
-        return trouble(s, TROUBLE_CRASHED, "%s() ended by a signal: %s", function, strsignal(WTERMSIG(status)));
+        return trouble(s, TROUBLE_ENDED, "%s() ended by a signal: %s", function, strsignal(WTERMSIG(status)));
     return trouble(s, TROUBLE_ENDED, "%s() ended the whole process with exit code %d, where it should return", function,
                    WEXITSTATUS(status));
 }

@@ -85,7 +85,8 @@ static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *
             v->pictured = r;
         was_wrong |= is_wrong(result);
         TroubleKind kind = result->failure.trouble.kind;
-        if (kind == TROUBLE_TIMEOUT || kind == TROUBLE_FLOOD || kind == TROUBLE_MEDDLING) break;
+        if (e->is_kernel && kind != TROUBLE_NONE && kind != TROUBLE_NOT_STARTED) break; // each new worker costs a while
+        if (kind == TROUBLE_TIMEOUT || kind == TROUBLE_FLOOD || kind == TROUBLE_ENDED || kind == TROUBLE_MEDDLING) break;
     }
     return good;
 }

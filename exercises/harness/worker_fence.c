@@ -1,6 +1,7 @@
 // worker_fence.c - a filter of system calls: those on a list fail with EPERM, all others go through.
 #include "exercises/harness/worker_fence.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/audit.h>
@@ -30,7 +31,7 @@ static const int REFUSED[] = {
     SYS_renameat2, SYS_mkdirat, SYS_linkat, SYS_symlinkat, SYS_fchmodat, SYS_truncate, SYS_mknodat, SYS_mount,
     SYS_chroot, SYS_prlimit64, SYS_setrlimit, SYS_pidfd_open, SYS_pidfd_send_signal, SYS_openat2, SYS_io_uring_setup,
     SYS_bpf, SYS_unshare, SYS_setns};
-enum { REFUSED_COUNT = sizeof REFUSED / sizeof *REFUSED, STEPS_MAX = 2 * REFUSED_COUNT + 40 };
+enum { REFUSED_COUNT = sizeof REFUSED / sizeof *REFUSED, STEPS_MAX = 2 * REFUSED_COUNT + 64 };
 
 #ifdef ARCHITECTURE
 
@@ -39,7 +40,10 @@ typedef struct {
     unsigned short count;
 } Program;
 
-static void add(Program *p, struct sock_filter step) { p->steps[p->count++] = step; }
+static void add(Program *p, struct sock_filter step) {
+    assert(p->count < STEPS_MAX);
+    p->steps[p->count++] = step;
+}
 
 #define NUMBER_AT offsetof(struct seccomp_data, nr)
 #define ARGUMENT_AT(k) (offsetof(struct seccomp_data, args) + 8 * (k)) // its lower half
