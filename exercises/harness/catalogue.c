@@ -10,9 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-extern const Exercise EXERCISE_COV2, EXERCISE_CONIC, EXERCISE_COMPOSITE, EXERCISE_POPPING, EXERCISE_NERF;
+extern const Exercise EXERCISE_COV2, EXERCISE_CONIC, EXERCISE_PSD, EXERCISE_COMPOSITE, EXERCISE_POPPING, EXERCISE_NERF;
 
-const Exercise *const EXERCISES[EXERCISE_COUNT] = {&EXERCISE_COV2, &EXERCISE_CONIC, &EXERCISE_COMPOSITE, &EXERCISE_POPPING, &EXERCISE_NERF};
+const Exercise *const EXERCISES[EXERCISE_COUNT] = {&EXERCISE_COV2,      &EXERCISE_CONIC,   &EXERCISE_PSD,
+                                                   &EXERCISE_COMPOSITE, &EXERCISE_POPPING, &EXERCISE_NERF};
 
 static char *folder_name(const Exercise *e) { return mem_format("%02d_%s", e->number, e->name); }
 

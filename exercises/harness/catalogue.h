@@ -21,7 +21,7 @@ typedef struct {
     int rung_count;
 } Exercise;
 
-enum { EXERCISE_COUNT = 5, RUNGS_MAX = 12 };
+enum { EXERCISE_COUNT = 6, RUNGS_MAX = 12 };
 extern const Exercise *const EXERCISES[EXERCISE_COUNT]; // by number
 
 // The one of that number ("7", "07", "E07"), name ("quat") or folder ("07_quat"). Fails (fail_usage) with what there is.
