@@ -18,6 +18,7 @@ static REAL clamped(REAL ratio, REAL size, REAL focal, REAL centre, int *is_free
 
 static Map map_at(const Cam *c, const REAL t[3]) {
     Map m;
+    (void)t;
     REAL x = c->t[0], y = c->t[1], z = fabs(c->t[2]) > (REAL)1e-3 ? c->t[2] : (REAL)1e-3;
     m.ratio[0] = clamped(x / z, c->width, c->fx, c->cx, &m.is_free[0]);
     m.ratio[1] = clamped(y / z, c->height, c->fy, c->cy, &m.is_free[1]);

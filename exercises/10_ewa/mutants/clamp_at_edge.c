@@ -10,8 +10,7 @@ typedef struct {
 } Map;
 
 static REAL clamped(REAL ratio, REAL size, REAL focal, REAL centre, int *is_free) {
-    REAL beyond = (REAL)0 * size;
-    REAL low = (-centre - beyond) / focal, high = (size - centre + beyond) / focal;
+    REAL low = -centre / focal, high = (size - centre) / focal;
     *is_free = low <= ratio && ratio <= high;
     return ratio < low ? low : ratio > high ? high : ratio;
 }

@@ -9,19 +9,11 @@ typedef struct {
     REAL row[2][3]; // of J W, px per world unit
 } Map;
 
-static REAL clamped(REAL ratio, REAL size, REAL focal, REAL centre, int *is_free) {
-    REAL beyond = (REAL)0.3 * size / 2;
-    REAL low = (-centre - beyond) / focal, high = (size - centre + beyond) / focal;
-    *is_free = low <= ratio && ratio <= high;
-    *is_free = 1;
-    return ratio;
-}
-
 static Map map_at(const Cam *c, const REAL t[3]) {
     Map m;
     REAL x = t[0], y = t[1], z = t[2];
-    m.ratio[0] = clamped(x / z, c->width, c->fx, c->cx, &m.is_free[0]);
-    m.ratio[1] = clamped(y / z, c->height, c->fy, c->cy, &m.is_free[1]);
+    m.ratio[0] = x / z, m.is_free[0] = 1;
+    m.ratio[1] = y / z, m.is_free[1] = 1;
     for (int k = 0; k < 3; k++) {
         m.row[0][k] = c->fx / z * (c->R[k] - m.ratio[0] * c->R[6 + k]);
         m.row[1][k] = c->fy / z * (c->R[3 + k] - m.ratio[1] * c->R[6 + k]);

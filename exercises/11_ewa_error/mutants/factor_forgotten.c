@@ -2,7 +2,7 @@
 // 0.9178 of the variance; divide by it before you compare.
 #include "exercises/exercise.h"
 
-static const double CUT = 3, CUT_FACTOR = 0.917820;
+static const double CUT = 3;
 
 // S = L L^T with L lower triangular (Cholesky). Where there is no variance left, the column is 0.
 static void root_of(const REAL S[6], REAL L[3][3]) {
@@ -50,9 +50,9 @@ void mc_project(const Cam *c, const REAL mu[3], const REAL S3[6], int n, unsigne
     REAL x = sum[0] / n, y = sum[1] / n;
     mean[0] = centre[0] + x;
     mean[1] = centre[1] + y;
-    cov[0] = (square[0] / n - x * x);
-    cov[1] = (square[1] / n - x * y);
-    cov[2] = (square[2] / n - y * y);
+    cov[0] = square[0] / n - x * x;
+    cov[1] = square[1] / n - x * y;
+    cov[2] = square[2] / n - y * y;
 }
 
 // The length of a symmetric matrix: all four entries count.

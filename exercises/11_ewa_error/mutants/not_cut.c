@@ -2,8 +2,6 @@
 // of them spoils mean and covariance; more draws make it worse.
 #include "exercises/exercise.h"
 
-static const double CUT = 3, CUT_FACTOR = 0.917820;
-
 // S = L L^T with L lower triangular (Cholesky). Where there is no variance left, the column is 0.
 static void root_of(const REAL S[6], REAL L[3][3]) {
     const REAL a[3][3] = {{S[0], S[1], S[2]}, {S[1], S[3], S[4]}, {S[2], S[4], S[5]}};
@@ -27,8 +25,6 @@ static void pixel_of(const Cam *c, const REAL p[3], REAL uv[2]) {
     uv[1] = c->fy * x[1] / x[2] + c->cy;
 }
 
-static int is_kept(const REAL z[3]) { return z[0] == z[0]; }
-
 // Sums are of distances from where mu itself falls: squares of pixel coordinates would swallow a small spread in float.
 void mc_project(const Cam *c, const REAL mu[3], const REAL S3[6], int n, unsigned long seed, REAL mean[2],
                 REAL cov[3]) {
@@ -39,7 +35,6 @@ void mc_project(const Cam *c, const REAL mu[3], const REAL S3[6], int n, unsigne
     for (unsigned long i = 0; kept < n; i++) {
         REAL z[3], p[3], uv[2];
         draw_normals(seed, i, z);
-        if (!is_kept(z)) continue;
         for (int k = 0; k < 3; k++) p[k] = mu[k] + L[k][0] * z[0] + L[k][1] * z[1] + L[k][2] * z[2];
         pixel_of(c, p, uv);
         REAL dx = uv[0] - centre[0], dy = uv[1] - centre[1];
@@ -50,9 +45,9 @@ void mc_project(const Cam *c, const REAL mu[3], const REAL S3[6], int n, unsigne
     REAL x = sum[0] / n, y = sum[1] / n;
     mean[0] = centre[0] + x;
     mean[1] = centre[1] + y;
-    cov[0] = (square[0] / n - x * x);
-    cov[1] = (square[1] / n - x * y);
-    cov[2] = (square[2] / n - y * y);
+    cov[0] = square[0] / n - x * x;
+    cov[1] = square[1] / n - x * y;
+    cov[2] = square[2] / n - y * y;
 }
 
 // The length of a symmetric matrix: all four entries count.
