@@ -146,9 +146,13 @@ $(BUILD)/flags: always
 .PHONY: always
 
 # For editors: how each file is compiled.
-command_for = $(if $(filter %.cpp,$(1)),$(CXX) $(CXX_FLAGS),$(CC) $(C_FLAGS)) -c $(1)
-compile_commands.json: Makefile $(ALL_SOURCES)
-	@$(file >$@.tmp-make)$(foreach source,$(ALL_SOURCES),$(file >>$@.tmp-make,{"directory": "$(CURDIR)",\
+EXERCISE_CODE := $(sort $(wildcard exercises/*/stub.c exercises/*/check_calls.c exercises/*/mutants/*.c \
+                 exercises/solutions/*.c) $(filter %.c,$(EXERCISE_FILES)))
+EXERCISE_FLAGS := -std=c17 -Wall -Wextra -D_GNU_SOURCE -DREAL=double -I.
+command_for = $(if $(filter %.cpp,$(1)),$(CXX) $(CXX_FLAGS),$(CC) $(if $(filter $(1),$(EXERCISE_CODE)),\
+              $(EXERCISE_FLAGS),$(C_FLAGS))) -c $(1)
+compile_commands.json: Makefile $(ALL_SOURCES) $(EXERCISE_CODE)
+	@$(file >$@.tmp-make)$(foreach source,$(ALL_SOURCES) $(EXERCISE_CODE),$(file >>$@.tmp-make,{"directory": "$(CURDIR)",\
 	    "file": "$(source)", "command": "$(subst ",\",$(call command_for,$(source)))"}))
 	@{ echo '['; sed '$$!s/$$/,/' $@.tmp-make; echo ']'; } >$@ && rm $@.tmp-make
 
@@ -260,6 +264,11 @@ format: ## bring all code into the form of .clang-format
 	clang-format -i $(FORMATTED)
 
 # ---- to use elsewhere ----
+# All of the exercises but what a person wrote there, and what is part of the program.
+EXERCISE_INSTALLED := $(wildcard exercises/*.* exercises/*/README.md exercises/*/hints.md exercises/*/stub.* \
+                      exercises/*/check_calls.c exercises/*/mutants/* exercises/solutions/*)
+EXERCISE_INSTALLED := $(filter-out exercises/progress.json exercises/instructor.sha256,$(EXERCISE_INSTALLED))
+
 .PHONY: install
 install: all ## install under PREFIX (/usr/local); DESTDIR is honoured
 	install -D -m 755 $(PROGRAM) $(DESTDIR)$(PREFIX)/bin/splatlab
@@ -267,14 +276,19 @@ install: all ## install under PREFIX (/usr/local); DESTDIR is honoured
 	install -m 644 $(wildcard kernels/*) $(DESTDIR)$(PREFIX)/share/splatlab/kernels
 	install -d $(DESTDIR)$(PREFIX)/share/splatlab/demos
 	install -m 644 $(wildcard lab/app/demos/*) $(DESTDIR)$(PREFIX)/share/splatlab/demos
+	install -d $(DESTDIR)$(PREFIX)/libexec/splatlab
+	install -m 755 $(WORKER) $(KERNEL_WORKER) $(DESTDIR)$(PREFIX)/libexec/splatlab
+	@set -e; for file in $(EXERCISE_INSTALLED); do \
+	    install -D -m 644 $$file $(DESTDIR)$(PREFIX)/share/splatlab/$$file; done
 	install -D -m 644 LICENSE $(DESTDIR)$(PREFIX)/share/doc/splatlab/LICENSE
 
 .PHONY: uninstall
 uninstall: ## remove what install put there
-	rm -rf $(DESTDIR)$(PREFIX)/bin/splatlab $(DESTDIR)$(PREFIX)/share/splatlab $(DESTDIR)$(PREFIX)/share/doc/splatlab
+	rm -rf $(DESTDIR)$(PREFIX)/bin/splatlab $(DESTDIR)$(PREFIX)/libexec/splatlab $(DESTDIR)$(PREFIX)/share/splatlab \
+	    $(DESTDIR)$(PREFIX)/share/doc/splatlab
 
 .PHONY: clean
-clean: ## remove everything that was built, and the demo
+clean: ## remove everything that was built, and the demo; what you wrote in the exercises stays
 	rm -rf build splatlab compile_commands.json demo
 
 .PHONY: help

@@ -46,11 +46,13 @@ bool exercises_root(char **root) {
     const char *set = getenv("SPLATLAB_EXERCISES");
     char *places[] = {mem_text(set ? set : ""), mem_text("exercises"), mem_format("%s/exercises", program),
                       mem_text(SPLATLAB_INSTALLED_KERNELS "/../exercises")};
-    enum { PLACES = sizeof places / sizeof *places };
+    enum { PLACES = sizeof places / sizeof *places, INSTALLED = PLACES - 1 };
     *root = NULL;
     for (int i = 0; i < PLACES && !*root; i++) {
         char *page = mem_format("%s/exercise.h", places[i]);
-        if (places[i][0] && file_exists(page)) *root = mem_text(places[i]);
+        char *plain = places[i][0] && file_exists(page) ? realpath(places[i], NULL) : NULL;
+        if (plain) *root = mem_text(i == INSTALLED ? plain : places[i]); // without the ".." of where kernels are
+        free(plain);
         mem_free(page);
     }
     if (!*root)

@@ -13,7 +13,7 @@
 
 // ---- list ----
 
-static void print_list(const Standing standings[EXERCISE_COUNT]) {
+static void print_list(const char *root, const Standing standings[EXERCISE_COUNT]) {
     int solved = 0;
     printf("%-4s %-12s %-8s %5s  %s\n", "", "", "rungs", "min", "");
     for (int i = 0; i < EXERCISE_COUNT; i++) {
@@ -25,7 +25,7 @@ static void print_list(const Standing standings[EXERCISE_COUNT]) {
     printf("%d of %d solved (*)\n", solved, EXERCISE_COUNT);
     for (int i = 0; i < EXERCISE_COUNT; i++) {
         if (standings[i].solved) continue;
-        printf("Next: read exercises/%02d_%s/README.md, then splatlab exercise watch %d\n", EXERCISES[i]->number,
+        printf("Next: read %s/%02d_%s/README.md, then splatlab exercise watch %d\n", root, EXERCISES[i]->number,
                EXERCISES[i]->name, EXERCISES[i]->number);
         return;
     }
@@ -54,7 +54,7 @@ int exercise_list(const char *root, const Exercise *e, const ExerciseOptions *o)
     if (o->json)
         print_list_json(standings);
     else
-        print_list(standings);
+        print_list(root, standings);
     return 0;
 }
 

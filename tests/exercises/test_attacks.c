@@ -43,7 +43,7 @@ static const Attack ATTACKS[] = {
      TROUBLE_MEDDLING, "wrote into the channel"},
     {"a number behind the output", "", "S[0] = S[1] = S[2] = 0; S[3] = 1;", TROUBLE_WROTE_OUTSIDE, "S[3]"},
     {"a number before the output", "", "S[0] = S[1] = S[2] = 0; S[-1] = 1;", TROUBLE_WROTE_OUTSIDE, "S[-1]"},
-    {"a jump to nowhere", "#include <setjmp.h>\nstatic jmp_buf b;", "longjmp(b, 1);", TROUBLE_CRASHED, ""},
+    {"a jump to nowhere", "#include <setjmp.h>\nstatic jmp_buf b;", "longjmp(b, 1);", TROUBLE_ENDED, "Segmentation fault"},
     {"all files closed", "", "for (int i = 0; i < 256; i++) close(i);", TROUBLE_ENDED, ""},
     {"ignored signals", "", "signal(SIGSEGV, SIG_IGN); *(volatile int *)8 = 1;", TROUBLE_ENDED, "Segmentation fault"},
     {"a handler that returns", "static void h(int n) { (void)n; _exit(0); }",
