@@ -96,7 +96,6 @@ bool trial_call(Trial *t, const char *function, const Arg *args, int count) {
 
 // An error that nothing can excuse: NaN where there should be a number.
 static double error_of(double yours, double expected, double scale) {
-    if (isnan(yours) && isnan(expected)) return 0;
     if (yours == expected) return 0; // infinities, too
     double error = fabs(yours - expected) / scale;
     return isnan(error) ? INFINITY : error;

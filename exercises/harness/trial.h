@@ -10,7 +10,7 @@
 //     }
 //
 // After the first thing that is wrong the trial has failed: later comparisons are not looked at, so a check needs no `if`.
-// Outputs are NaN after a call that did not come back.
+// Outputs are NaN after a call that did not come back, and where nothing was written; NaN is never near anything, itself neither.
 #ifndef SPLATLAB_EXERCISES_HARNESS_TRIAL_H
 #define SPLATLAB_EXERCISES_HARNESS_TRIAL_H
 
@@ -61,7 +61,7 @@ void trial_near1(Trial *trial, const char *claim, double yours, double expected,
 void trial_within(Trial *trial, const char *claim, const double *yours, const double *expected, int count,
                   double tolerance);
 
-// yours == expected, to the bit (both NaN counts as equal): for whole numbers and flags.
+// yours == expected: for whole numbers and flags.
 void trial_equal(Trial *trial, const char *claim, double yours, double expected);
 
 // yours <= limit.
