@@ -2,10 +2,10 @@
 //
 // Expected moments come from perspective.h, an integral and no draw; tolerances are multiples of the standard errors that
 // the same integral gives. The laws of the last two rungs are the ones that the page states.
-#include "exercises/exercise.h"
-#include "exercises/harness/blob_picture.h"
 #include "exercises/harness/camera_case.h"
 #include "exercises/harness/catalogue.h"
+#include "exercises/harness/cut_draws.h"
+#include "exercises/harness/ewa_picture.h"
 #include "exercises/harness/perspective.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static void draw_of_size(Rng *rng, double size, double *in) {
 static bool is_case(const double *in, double size_max) {
     CameraCase c = case_of(in);
     return camera_case_allows(&c) && in[SEED] >= 0 && in[SEED] <= SEED_COUNT && in[SEED] == floor(in[SEED]) &&
-           largest_log(&c) <= log(size_max * c.depth) && fabs(c.ratio[0]) < 3 && fabs(c.ratio[1]) < 3;
+           largest_log(&c) <= log(1.001 * size_max * c.depth) && fabs(c.ratio[0]) < 3 && fabs(c.ratio[1]) < 3;
 }
 
 typedef struct {
@@ -137,29 +137,12 @@ static bool allows_draws(const double *in) {
            in[DRAWS_COUNT] >= 2 && in[DRAWS_COUNT] <= DRAWS_MAX && in[DRAWS_COUNT] == floor(in[DRAWS_COUNT]);
 }
 
-// Of the draws that count: |mean|^2, and the mean of |z - mean|^2.
-static void moments_of_draws(unsigned long seed, int n, double *mean2, double *spread) {
-    double sum[3] = {0}, square = 0;
-    int kept = 0;
-    for (unsigned long i = 0; kept < n; i++) {
-        double z[3];
-        draw_normals(seed, i, z);
-        double z2 = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
-        if (z2 > PERSPECTIVE_CUT * PERSPECTIVE_CUT) continue;
-        for (int k = 0; k < 3; k++) sum[k] += z[k] / n;
-        square += z2 / n;
-        kept++;
-    }
-    *mean2 = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
-    *spread = square - *mean2;
-}
-
 static void draws(Trial *t, const double *in) {
     static const Mat3 LOOKS[3] = {
         {{1, 0, 0, 0, 1, 0, 0, 0, 1}}, {{0, 1, 0, 0, 0, 1, 1, 0, 0}}, {{0, 0, 1, 1, 0, 0, 0, 1, 0}}};
     static const double R = 1e-6;
-    double mean2, spread, my_mean2 = 0, my_spread = 0, n = in[DRAWS_COUNT];
-    moments_of_draws((unsigned long)in[DRAWS_SEED], (int)n, &mean2, &spread);
+    double my_mean2 = 0, my_spread = 0, n = in[DRAWS_COUNT];
+    CutDraws want = cut_draws((unsigned long)in[DRAWS_SEED], (int)n);
     for (int k = 0; k < 3; k++) {
         View v = {.camera = {.width = 2, .height = 2, .fx = 1, .fy = 1, .rotation = LOOKS[k]}, .mean_cam = {0, 0, 1}};
         Mat3 to_world = mat3_transpose(&LOOKS[k]);
@@ -171,10 +154,10 @@ static void draws(Trial *t, const double *in) {
     }
     trial_near1(
         t, "the square of `mean` of a tiny ball, over three views along the axes: that of the n first draws that count",
-        my_mean2, mean2, 1 + mean2);
+        my_mean2, want.mean2, 1 + want.mean2);
     trial_near1(t,
                 "the trace of `cov` of a tiny ball, over three views along the axes: that of the draws, over 0.917820",
-                my_spread, spread / perspective_cut_factor(), 1 + spread);
+                my_spread, want.spread / perspective_cut_factor(), 1 + want.spread);
 }
 
 // Within SIGMAS standard errors, each number by its own.
@@ -210,12 +193,24 @@ static void draw_small(Rng *rng, int k, double *in) {
 
 static bool allows_small(const double *in) { return is_case(in, SMALL); }
 
+static const double WIDE = 0.5; // largest standard deviation over the depth, where it lies across the view
+
+// Its standard deviation in depth becomes a share of the depth: that is what perspective bends.
 static void draw_near(Rng *rng, int k, double *in) {
     (void)k;
-    draw_of_size(rng, rng_range(rng, 0.2, NEAR), in);
+    draw_of_size(rng, 0.1, in);
+    CameraCase c = case_of(in);
+    double change = log(rng_range(rng, 0.2, NEAR) * c.depth) - log(view_of(&c).in_camera.zz) / 2;
+    change = fmin(change, log(WIDE * c.depth) - largest_log(&c));
+    for (int i = 0; i < 3; i++) c.log_scale[i] += change;
+    memcpy(in, &c, sizeof c);
 }
 
-static bool allows_near(const double *in) { return is_case(in, NEAR); }
+static bool allows_near(const double *in) {
+    if (!is_case(in, WIDE)) return false;
+    CameraCase c = case_of(in);
+    return sqrt(view_of(&c).in_camera.zz) <= 1.001 * NEAR * c.depth;
+}
 
 // No extent along one axis, or along two.
 static CameraCase flat_of(const double *in) {
@@ -402,27 +397,21 @@ static void slopes(Trial *t, const double *in) {
 
 // ---- pictures ----
 
-static bool picture_of(Subject *subject, const CameraCase *c, double seed, ImageF *yours, ImageF *reference) {
-    View view = view_of(c);
+static bool picture(Subject *subject, const double *in, ImageF *yours, ImageF *reference) {
+    CameraCase c = case_of(in);
+    View view = view_of(&c);
     Trial trial = {.subject = subject};
-    Found found = call(&trial, &view, SAMPLES, seed);
+    Found found = call(&trial, &view, SAMPLES, in[SEED]);
     bool good = !trial.failed;
     trial_free(&trial);
     if (!good) return false;
-    Sym2 want = perspective_of(&view.camera, view.mean_cam, view.in_camera).covariance;
-    *yours = blob_picture(found.cov, blob_picture_fit(want));
-    *reference = blob_picture(want, blob_picture_fit(want));
+    Perspective want = perspective_of(&view.camera, view.mean_cam, view.in_camera);
+    Sym2 ewa = reference_ewa_forward(&view.camera, view.mean_cam, view.world);
+    Vec3 centre = centre_of(&view);
+    double half_width = 4 * sqrt(sym2_eigen(want.covariance).major);
+    *yours = ewa_picture(ewa, found.mean[0] - centre.x, found.mean[1] - centre.y, found.cov, half_width);
+    *reference = ewa_picture(ewa, want.mean[0] - centre.x, want.mean[1] - centre.y, want.covariance, half_width);
     return true;
-}
-
-static bool picture(Subject *subject, const double *in, ImageF *yours, ImageF *reference) {
-    CameraCase c = case_of(in);
-    return picture_of(subject, &c, in[SEED], yours, reference);
-}
-
-static bool picture_flat(Subject *subject, const double *in, ImageF *yours, ImageF *reference) {
-    CameraCase c = flat_of(in);
-    return picture_of(subject, &c, in[SEED], yours, reference);
 }
 
 static const Rung RUNGS[] = {
@@ -448,14 +437,6 @@ static const Rung RUNGS[] = {
      .allows = allows_small,
      .check = moments,
      .picture = picture},
-    {.name = "flat",
-     .claim = "a splat without thickness, or without width too, is drawn from as well",
-     .cases = 1,
-     .count = NUMBERS,
-     .draw = draw_moderate,
-     .allows = allows_moderate,
-     .check = flat,
-     .picture = picture_flat},
     {.name = "near",
      .claim = "a splat that reaches far towards the camera has the mean and covariance of true perspective",
      .cases = 1,
@@ -464,6 +445,13 @@ static const Rung RUNGS[] = {
      .allows = allows_near,
      .check = moments,
      .picture = picture},
+    {.name = "flat",
+     .claim = "a splat without thickness, or without width too, is drawn from as well",
+     .cases = 1,
+     .count = NUMBERS,
+     .draw = draw_moderate,
+     .allows = allows_moderate,
+     .check = flat},
     {.name = "alike",
      .claim = "neither focal length nor the world's unit changes the picture's proportions",
      .cases = 4,

@@ -2,6 +2,7 @@
 
 #include "exercises/exercise.h"
 #include "exercises/harness/camera_case.h"
+#include "exercises/harness/cut_draws.h"
 #include "tests/support/support.h"
 
 #include <gsl/gsl_cdf.h>
@@ -202,6 +203,18 @@ static void draws_and_seeds_know_nothing_of_each_other(void **state) {
     support_near(square / inside, perspective_cut_factor(), 5 / sqrt(COUNT), "variance of what it keeps");
 }
 
+static void the_judge_counts_the_draws_inside_the_cut(void **state) {
+    (void)state;
+    enum { COUNT = 100000 };
+    double first[3];
+    draw_normals(3, 0, first);
+    CutDraws one = cut_draws(3, 1), many = cut_draws(3, COUNT);
+    support_near(one.mean2, first[0] * first[0] + first[1] * first[1] + first[2] * first[2], 1e-15, "one draw");
+    support_near(one.spread, 0, 1e-15, "spread of one");
+    support_near(many.mean2, 0, 25.0 / COUNT, "mean of many");
+    support_near(many.spread / 3, gsl_cdf_chisq_P(9, 5) / gsl_cdf_chisq_P(9, 3), 5 / sqrt(COUNT), "spread of many");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_cut_leaves_what_the_chi_square_distributions_say),
@@ -212,6 +225,7 @@ int main(void) {
         cmocka_unit_test(the_page_of_exercise_11_says_what_is_true),
         cmocka_unit_test(the_draws_of_the_exercises_are_normal),
         cmocka_unit_test(draws_and_seeds_know_nothing_of_each_other),
+        cmocka_unit_test(the_judge_counts_the_draws_inside_the_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
