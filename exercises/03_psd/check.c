@@ -43,7 +43,8 @@ static bool allows_blob(const double *in) {
     return fabs(in[FACTORS]) <= 4;
 }
 
-// The picture, and what the errors say of it: L = sum of e g. Numbers of what a derivative is made of are summed in `size`.
+// The picture, and what the errors say of it: L = sum of e g. In `size` is summed how large the terms are of L and of its
+// derivatives.
 static double loss_of(const double *in, Sym2 cov, double *size) {
     Sym2 conic = {0};
     covariance_conic(cov, &conic);
@@ -53,7 +54,7 @@ static double loss_of(const double *in, Sym2 cov, double *size) {
         double dx = i % width + 0.5 - in[WIDTH] / 2, dy = i / width + 0.5 - in[HEIGHT] / 2;
         double m2 = conic_mahalanobis2(conic, dx, dy), g = exp(-m2 / 2);
         sum += in[ERRORS + i] * g;
-        if (size) *size += fabs(in[ERRORS + i]) * g * m2;
+        if (size) *size += fabs(in[ERRORS + i]) * g * (1 + m2);
     }
     return sum;
 }
@@ -81,7 +82,7 @@ static double minor_of(const double *in) { return exp(2 * fmin(in[FACTORS + 1], 
 
 static double major_of(const double *in) { return exp(2 * fmax(in[FACTORS + 1], in[FACTORS + 2])); }
 
-// As large as the terms are whose sum the gradient is; never zero.
+// As large as the terms whose sums are the gradient and the loss that is differenced; never zero.
 static double scale_of(const double *in, double per) {
     double size = 0;
     loss_of(in, covariance_of(in + FACTORS), &size);

@@ -115,10 +115,11 @@ static void draw_stop(Rng *rng, int k, double *in) {
     } while (!allows(in));
 }
 
-// T comes down to just under 100 Tmin, then a white hit of 0.99 and above brings it below; behind it all is black.
+// T comes down to just under 100 Tmin, then a white hit of 0.99 and above brings it below; behind it all is black. In every third
+// case T is above 100 Tmin, and the walk goes on.
 static void draw_bound(Rng *rng, int k, double *in) {
     double Tmin = (float)exp(rng_range(rng, log(1e-3), log(9e-3)));
-    double T = rng_range(rng, k == 0 ? 0.999 : 0.5, 0.999) * Tmin / (1 - ALPHA_HIGHEST);
+    double T = (k % 3 == 2 ? rng_range(rng, 1.01, 1.1) : rng_range(rng, 0.5, 0.998)) * Tmin / (1 - ALPHA_HIGHEST);
     draw_hits(rng, in, 3 + (int)rng_below(rng, 6), 0.05, 0.4);
     in[TMIN] = Tmin;
     in[HITS_AT] = 1 - T;
