@@ -11,6 +11,7 @@
 #include "lab/io/json_io.h"
 
 #include <stdio.h>
+#include <string.h>
 
 typedef struct {
     Fit2dOptions fit;
@@ -72,8 +73,11 @@ static OptionTable make_table(const Options *defaults, OptionField fields[FIELDS
     }
     for (int i = 0; i < COMMAND_FIELD_COUNT; i++) fields[count++] = COMMAND_FIELDS[i];
     window_options_fields(offsetof(Options, window), fields + count);
-    fields[count].name = "window-size"; // --size is the photograph's
-    count += WINDOW_OPTION_COUNT;
+    for (int i = 0; i < WINDOW_OPTION_COUNT; i++, count++) {
+        if (strcmp(fields[count].name, "size") == 0) fields[count].name = "window-size"; // --size is the photograph's
+        if (strcmp(fields[count].name, "state-file") == 0)
+            fields[count].help = "a .json file: step, loss, PSNR and number of blobs, written after each frame";
+    }
     return (OptionTable){fields, count, defaults};
 }
 

@@ -69,6 +69,8 @@ static bool run_widget(const Options *o, const char *path) {
     Scene2d scene = {0};
     if (o->mine && o->speed) return fail_usage("widget: --speed measures the rasterizer; leave --mine away");
     if (o->json && !o->speed) return fail_usage("widget: --json goes with --speed");
+    if (o->speed && (o->window.frames || o->window.state_file[0] || o->window.places_file[0]))
+        return fail_usage("widget: --speed draws its own frames; it goes with --size, --ui-scale and --json alone");
     if (!window_options_check(&o->window, "widget")) return false;
     if (!path)
         scene = scene2d_default();

@@ -28,18 +28,16 @@ typedef struct {
 
 // ---- life ----
 
-// window: NULL for headless. scale: 1 for a screen of 96 dots per inch. Warns where the fonts are not installed.
-void gui_open(Window *window, double scale);
+// window: NULL for headless. Warns where the fonts are not installed.
+void gui_open(Window *window);
 void gui_close(void);
-void gui_set_scale(double scale); // from the next frame on
-double gui_scale(void);
-void gui_set_density(double px_per_point); // likewise; 1 at first
+void gui_set_scale(double scale, double density); // from the next frame on; density: px per point, 1 at first
 double gui_density(void);
 
 // ---- a frame ----
 
-// width, height: of a headless screen, ignored with a window. seconds: since the frame before.
-void gui_frame_begin(int width, int height, double seconds);
+// width, height: of the screen, points.
+void gui_frame_begin(int width, int height);
 void gui_frame_end(void);         // with a window: draws into it
 void gui_frame_paint(Image8 *to); // headless, after gui_frame_end(): 3 channels, the screen's size in px
 GuiRect gui_screen(void);         // the whole screen
@@ -52,7 +50,7 @@ typedef struct {
     double x, y;
     double moved_x, moved_y; // since the frame before
     double wheel;            // notches, away from the person is positive
-    bool down[GUI_BUTTON_COUNT], pressed[GUI_BUTTON_COUNT], released[GUI_BUTTON_COUNT], double_clicked;
+    bool down[GUI_BUTTON_COUNT], pressed[GUI_BUTTON_COUNT], released[GUI_BUTTON_COUNT];
 } GuiMouse;
 
 GuiMouse gui_mouse(void);

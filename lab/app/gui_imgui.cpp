@@ -34,11 +34,12 @@ struct State {
     unsigned textures[GUI_PICTURE_COUNT] = {}; // of the window
     Image8 pictures[GUI_PICTURE_COUNT] = {};   // headless
     bool smooth[GUI_PICTURE_COUNT] = {};
-    Image8 atlas = {}; // the glyphs, headless
-    int width = 0, height = 0;
+    Image8 atlas = {};         // the glyphs, headless
     std::vector<Place> places; // of this frame
 };
 State gui;
+
+float f32(double value) { return static_cast<float>(value); }
 
 constexpr double BODY_PX = 18; // at scale 1
 
@@ -63,13 +64,13 @@ void load_fonts() {
     gui.density = gui.wanted_density;
     atlas->Clear();
     for (int style = 0; style < GUI_STYLE_COUNT; style++) {
-        float size = std::round(static_cast<float>(BODY_PX * FONT_FILES[style].size * gui.scale * gui.density));
+        float size = std::round(f32(BODY_PX * FONT_FILES[style].size * gui.scale * gui.density));
         char *path = font_file_find(FONT_FILES[style].name);
         ImFontConfig own;
         own.SizePixels = size;
         gui.fonts[style] = path ? atlas->AddFontFromFileTTF(path, size, nullptr, GLYPHS) : atlas->AddFontDefault(&own);
         mem_free(path);
-        gui.fonts[style]->Scale = static_cast<float>(1 / gui.density);
+        gui.fonts[style]->Scale = f32(1 / gui.density);
     }
     atlas->Build();
     if (gui.window) {
@@ -88,7 +89,7 @@ void load_fonts() {
 
 ImU32 packed(GuiColour c) { return IM_COL32(c >> 24, c >> 16 & 255, c >> 8 & 255, c & 255); }
 ImVec4 vec4(GuiColour c) { return ImGui::ColorConvertU32ToFloat4(packed(c)); }
-ImVec2 vec2(double x, double y) { return ImVec2(static_cast<float>(x), static_cast<float>(y)); }
+ImVec2 vec2(double x, double y) { return ImVec2(f32(x), f32(y)); }
 
 void set_style() {
     ImGuiStyle fresh;
@@ -123,7 +124,7 @@ void set_style() {
         {ImGuiCol_ScrollbarGrab, 0x3a4258ff},
     };
     for (auto &c : colours) fresh.Colors[c.slot] = vec4(c.colour);
-    fresh.ScaleAllSizes(static_cast<float>(gui.scale));
+    fresh.ScaleAllSizes(f32(gui.scale));
     ImGui::GetStyle() = fresh;
 }
 
@@ -144,10 +145,9 @@ ImDrawList *canvas() { return ImGui::GetWindowDrawList(); }
 
 // ---- life ----
 
-void gui_open(Window *window, double scale) {
+void gui_open(Window *window) {
     gui = State();
     gui.window = window;
-    gui.wanted_scale = scale;
     ImGui::CreateContext();
     ImGuiIO &io = ImGui::GetIO();
     io.IniFilename = nullptr;
@@ -175,17 +175,12 @@ void gui_close(void) {
     gui = State();
 }
 
-void gui_set_scale(double scale) { gui.wanted_scale = scale; }
-
-double gui_scale(void) { return gui.scale; }
-
-void gui_set_density(double px_per_point) { gui.wanted_density = px_per_point; }
-
+void gui_set_scale(double scale, double density) { gui.wanted_scale = scale, gui.wanted_density = density; }
 double gui_density(void) { return gui.density; }
 
 // ---- a frame ----
 
-void gui_frame_begin(int width, int height, double seconds) {
+void gui_frame_begin(int width, int height) {
     if (gui.wanted_scale != gui.scale || gui.wanted_density != gui.density) {
         load_fonts();
         set_style();
@@ -196,13 +191,12 @@ void gui_frame_begin(int width, int height, double seconds) {
         ImGui_ImplGlfw_NewFrame();
         // The library counts as the window system does; a point of ours is `unit` of its units.
         double unit = window_unit(gui.window);
-        io.DisplaySize = vec2(width, height);
         io.DisplayFramebufferScale = vec2(gui.density, gui.density);
         if (ImGui::IsMousePosValid(&io.MousePos)) io.MousePos = vec2(io.MousePos.x / unit, io.MousePos.y / unit);
     } else {
-        io.DisplaySize = vec2(width, height);
-        io.DeltaTime = static_cast<float>(seconds > 0 ? seconds : 1.0 / 60);
+        io.DeltaTime = 1.0f / 60;
     }
+    io.DisplaySize = vec2(width, height);
     gui.places.clear();
     ImGui::NewFrame();
     ImGui::PushFont(gui.fonts[GUI_BODY]);
@@ -217,7 +211,7 @@ void gui_frame_end(void) {
 static std::vector<PaintVertex> in_px(const ImDrawList *list) {
     auto points = reinterpret_cast<const PaintVertex *>(list->VtxBuffer.Data);
     std::vector<PaintVertex> vertices(points, points + list->VtxBuffer.Size);
-    for (PaintVertex &v : vertices) v.x *= static_cast<float>(gui.density), v.y *= static_cast<float>(gui.density);
+    for (PaintVertex &v : vertices) v.x *= f32(gui.density), v.y *= f32(gui.density);
     return vertices;
 }
 
@@ -228,11 +222,10 @@ void gui_frame_paint(Image8 *to) {
     for (int i = 0; i < data->CmdListsCount; i++) {
         const ImDrawList *list = data->CmdLists[i];
         const std::vector<PaintVertex> vertices = in_px(list);
-        const double density = gui.density;
         for (const ImDrawCmd &command : list->CmdBuffer) {
-            const int clip[4] = {
-                static_cast<int>(command.ClipRect.x * density), static_cast<int>(command.ClipRect.y * density),
-                static_cast<int>(command.ClipRect.z * density), static_cast<int>(command.ClipRect.w * density)};
+            auto px = [](float points) { return static_cast<int>(points * gui.density); };
+            const ImVec4 &r = command.ClipRect;
+            const int clip[4] = {px(r.x), px(r.y), px(r.z), px(r.w)};
             const Image8 *image = static_cast<const Image8 *>(command.GetTexID());
             bool is_picture = image >= gui.pictures && image < gui.pictures + GUI_PICTURE_COUNT;
             PaintTexture texture = {image, is_picture ? gui.smooth[image - gui.pictures] : true};
@@ -265,7 +258,6 @@ GuiMouse gui_mouse(void) {
         mouse.pressed[b] = ImGui::IsMouseClicked(b);
         mouse.released[b] = ImGui::IsMouseReleased(b);
     }
-    mouse.double_clicked = ImGui::IsMouseDoubleClicked(0);
     return mouse;
 }
 
@@ -275,7 +267,6 @@ int gui_key(int key, int modifiers) {
 }
 
 bool gui_key_pressed(void) { return gui.window && window_key_pressed(gui.window); }
-
 bool gui_ctrl(void) { return ImGui::GetIO().KeyCtrl; }
 bool gui_shift(void) { return ImGui::GetIO().KeyShift; }
 
@@ -313,7 +304,6 @@ void gui_overlay_begin(const char *name, GuiRect place, GuiColour background, do
 }
 
 void gui_panel_end(void) { ImGui::End(); }
-
 double gui_width_left(void) { return ImGui::GetContentRegionAvail().x; }
 
 GuiRect gui_take(double width, double height) {
@@ -322,7 +312,7 @@ GuiRect gui_take(double width, double height) {
     return {at.x, at.y, width, height};
 }
 
-void gui_same_line(double gap_em) { ImGui::SameLine(0, static_cast<float>(gap_em * gui_em())); }
+void gui_same_line(double gap_em) { ImGui::SameLine(0, f32(gap_em * gui_em())); }
 void gui_gap(double ems) { ImGui::Dummy(vec2(0, ems * gui_em())); }
 void gui_rule(void) { ImGui::Separator(); }
 
@@ -346,14 +336,18 @@ void gui_paragraph(GuiStyle style, GuiColour colour, const char *text) {
     ImGui::PopTextWrapPos();
 }
 
-// The label stands left, the slider takes the rest of the line.
-bool gui_slider(const char *label, double *value, double low, double high, const char *format, bool logarithmic) {
-    double start = ImGui::GetCursorPosX(), labels = 5.4 * gui_em();
+// The label stands left, the control takes the rest of the line. Returns the control's own name.
+static std::string label_left(const char *label) {
+    double start = ImGui::GetCursorPosX();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
-    ImGui::SameLine(static_cast<float>(start + labels));
+    ImGui::SameLine(f32(start + 5.4 * gui_em()));
     ImGui::SetNextItemWidth(-FLT_MIN);
-    std::string id = std::string("##") + label;
+    return std::string("##") + label;
+}
+
+bool gui_slider(const char *label, double *value, double low, double high, const char *format, bool logarithmic) {
+    std::string id = label_left(label);
     double before = *value;
     ImGuiSliderFlags flags = ImGuiSliderFlags_NoRoundToFormat | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
     ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, value, &low, &high, format, flags);
@@ -376,8 +370,8 @@ bool gui_button(const char *label, double width) {
 
 bool gui_choice(const char *label, int *value, const char *const *names, int count) {
     bool changed = false;
-    float gap = static_cast<float>(0.25 * gui_em());
-    float width = (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1)) / static_cast<float>(count);
+    float gap = f32(0.25 * gui_em());
+    float width = (ImGui::GetContentRegionAvail().x - gap * f32(count - 1)) / f32(count);
     ImGui::PushID(label);
     for (int i = 0; i < count; i++) {
         if (i) ImGui::SameLine(0, gap);
@@ -393,13 +387,8 @@ bool gui_choice(const char *label, int *value, const char *const *names, int cou
 }
 
 bool gui_colour(const char *label, double rgb[3]) {
-    float value[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
-    double start = ImGui::GetCursorPosX();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(label);
-    ImGui::SameLine(static_cast<float>(start + 5.4 * gui_em()));
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    bool changed = ImGui::ColorEdit3((std::string("##") + label).c_str(), value);
+    float value[3] = {f32(rgb[0]), f32(rgb[1]), f32(rgb[2])};
+    bool changed = ImGui::ColorEdit3(label_left(label).c_str(), value);
     note_place(label);
     for (int c = 0; changed && c < 3; c++) rgb[c] = std::fmin(1, std::fmax(0, static_cast<double>(value[c])));
     return changed;
@@ -415,7 +404,7 @@ bool gui_text_field(const char *label, char *text, int size) {
 void gui_hint(const char *text) {
     if (!ImGui::IsItemHovered()) return;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(static_cast<float>(22 * gui_em()));
+    ImGui::PushTextWrapPos(f32(22 * gui_em()));
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -442,7 +431,7 @@ bool gui_place(int i, const char **label, GuiRect *place) {
 // ---- drawing ----
 
 void gui_draw_line(double x0, double y0, double x1, double y1, GuiColour colour, double width) {
-    canvas()->AddLine(vec2(x0, y0), vec2(x1, y1), packed(colour), static_cast<float>(width));
+    canvas()->AddLine(vec2(x0, y0), vec2(x1, y1), packed(colour), f32(width));
 }
 
 static std::vector<ImVec2> points_of(const double *xy, int count) {
@@ -453,8 +442,7 @@ static std::vector<ImVec2> points_of(const double *xy, int count) {
 
 void gui_draw_curve(const double *xy, int count, bool closed, GuiColour colour, double width) {
     std::vector<ImVec2> points = points_of(xy, count);
-    canvas()->AddPolyline(points.data(), count, packed(colour), closed ? ImDrawFlags_Closed : 0,
-                          static_cast<float>(width));
+    canvas()->AddPolyline(points.data(), count, packed(colour), closed ? ImDrawFlags_Closed : 0, f32(width));
 }
 
 void gui_draw_shape(const double *xy, int count, GuiColour colour) {
@@ -463,21 +451,19 @@ void gui_draw_shape(const double *xy, int count, GuiColour colour) {
 }
 
 void gui_draw_rect(GuiRect r, GuiColour colour, double radius) {
-    canvas()->AddRectFilled(vec2(r.x, r.y), vec2(r.x + r.width, r.y + r.height), packed(colour),
-                            static_cast<float>(radius));
+    canvas()->AddRectFilled(vec2(r.x, r.y), vec2(r.x + r.width, r.y + r.height), packed(colour), f32(radius));
 }
 
 void gui_draw_frame(GuiRect r, GuiColour colour, double radius, double width) {
-    canvas()->AddRect(vec2(r.x, r.y), vec2(r.x + r.width, r.y + r.height), packed(colour), static_cast<float>(radius),
-                      0, static_cast<float>(width));
+    canvas()->AddRect(vec2(r.x, r.y), vec2(r.x + r.width, r.y + r.height), packed(colour), f32(radius), 0, f32(width));
 }
 
 void gui_draw_disc(double x, double y, double radius, GuiColour colour) {
-    canvas()->AddCircleFilled(vec2(x, y), static_cast<float>(radius), packed(colour));
+    canvas()->AddCircleFilled(vec2(x, y), f32(radius), packed(colour));
 }
 
 void gui_draw_ring(double x, double y, double radius, GuiColour colour, double width) {
-    canvas()->AddCircle(vec2(x, y), static_cast<float>(radius), packed(colour), 0, static_cast<float>(width));
+    canvas()->AddCircle(vec2(x, y), f32(radius), packed(colour), 0, f32(width));
 }
 
 void gui_draw_text(GuiStyle style, double x, double y, GuiColour colour, const char *format, ...) {
@@ -493,7 +479,6 @@ double gui_text_width(GuiStyle style, const char *text) {
     ImFont *font = gui.fonts[style];
     return font->CalcTextSizeA(font_size(font), FLT_MAX, 0, text).x;
 }
-
 double gui_text_height(GuiStyle style) { return font_size(gui.fonts[style]); }
 
 void gui_picture_fill(int picture, const Image8 *image, bool smooth) {

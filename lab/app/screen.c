@@ -45,7 +45,7 @@ Screen *screen_open(const ScreenOptions *options) {
         }
     }
     interrupt_install();
-    gui_open(screen->window, 1);
+    gui_open(screen->window);
     return screen;
 }
 
@@ -84,7 +84,7 @@ static double screen_density(const Screen *screen) {
 static void follow_size(const Screen *screen, double width, double height) {
     double fits = fmin(width / DESIGN_WIDTH, height / DESIGN_HEIGHT);
     double scale = round(fits * 16) / 16 * pow(ZOOM_STEP, screen->zoom);
-    gui_set_scale(fmin(SCALE_HIGH, fmax(SCALE_LOW, scale)));
+    gui_set_scale(fmin(SCALE_HIGH, fmax(SCALE_LOW, scale)), screen_density(screen));
 }
 
 bool screen_begin(Screen *screen, bool is_moving) {
@@ -98,9 +98,8 @@ bool screen_begin(Screen *screen, bool is_moving) {
         window_size(screen->window, &width, &height);
     }
     screen->began_s = clock_seconds();
-    gui_set_density(screen_density(screen));
     follow_size(screen, width, height);
-    gui_frame_begin(width, height, 0);
+    gui_frame_begin(width, height);
     for (int held = 0; screen->window && held <= (GUI_SHIFT | GUI_CTRL); held++)
         screen->marks += window_key_count(screen->window, GLFW_KEY_F12, held);
     return true;

@@ -8,6 +8,7 @@
 #include "tests/support/session.h"
 #include "tests/support/support.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -400,6 +401,31 @@ static void without_a_display_it_says_what_to_do(void **state) {
     command_expect_error(&r, 1, "no display", "xvfb-run", NULL);
 }
 
+static void the_speed_is_told(void **state) {
+    (void)state;
+    char *display = getenv("DISPLAY"), *kept = display ? strdup(display) : NULL;
+    unsetenv("DISPLAY");
+    CommandResult r = command_run("widget", "--speed", "--json", "--size", "800x500", NULL);
+    if (kept) setenv("DISPLAY", kept, 1);
+    free(kept);
+    command_expect(&r, 0);
+    json_t *root = json_loads(r.out, 0, NULL), *speeds = json_object_get(root, "speeds");
+    assert_int_equal(json_array_size(speeds), 2);
+    for (size_t i = 0; i < 2; i++) {
+        json_t *speed = json_array_get(speeds, i);
+        double raster_ms = json_number_value(json_object_get(speed, "raster_ms"));
+        assert_int_equal(json_integer_value(json_object_get(speed, "gaussians")), i ? 200 : 6);
+        assert_true(raster_ms > 0 && raster_ms <= json_number_value(json_object_get(speed, "frame_ms")));
+    }
+    json_decref(root);
+    r = command_run("widget", "--json", NULL);
+    command_expect_error(&r, 2, "--speed", NULL);
+    r = command_run("widget", "--speed", "--frames", "3", NULL);
+    command_expect_error(&r, 2, "--speed", NULL);
+    r = command_run("widget", "--ui-scale", "0.1", "--frames", "1", NULL);
+    command_expect_error(&r, 2, "--ui-scale", NULL);
+}
+
 static void a_scene_that_is_wrong_is_named(void **state) {
     (void)state;
     CommandResult r = command_run("widget", "none.json", NULL);
@@ -431,6 +457,7 @@ int main(void) {
         cmocka_unit_test(two_px_a_point_are_the_same_picture_sharper),
         cmocka_unit_test(a_screenshot_shows_the_picture),
         cmocka_unit_test(without_a_display_it_says_what_to_do),
+        cmocka_unit_test(the_speed_is_told),
         cmocka_unit_test(a_scene_that_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, end_widget);
