@@ -139,7 +139,7 @@ void bench_scaling_print(const json_t *root) {
     json_array_foreach(json_object_get(root, "fits"), i, row) {
         const json_t *pairs = json_object_get(row, "evaluated_pairs"),
                      *all = json_object_get(row, "pixels_times_splats"), *law = json_object_get(row, "law");
-        printf("%.0f threads: cost of both blends ~ evaluated pairs^%.2f (scatter %.0f %%), ~ (pixels x splats)^%.2f "
+        printf("threads %.0f: cost of both blends ~ evaluated pairs^%.2f (scatter %.0f %%), ~ (pixels x splats)^%.2f "
                "(scatter %.0f %%)\n",
                number(row, "threads"), number(pairs, "exponent"), 100 * number(pairs, "scatter"),
                number(all, "exponent"), 100 * number(all, "scatter"));
