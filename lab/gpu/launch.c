@@ -53,7 +53,8 @@ bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, cons
     const size_t first[2] = {offset, 0};
     if (!global[0]) return true; // nothing to do
     cl_event *event = stage_next_event(gpu);
-    cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, offset ? first : NULL, global, local, 0, NULL, event);
+    cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, offset ? first : NULL, global, local,
+                                         0, NULL, event);
     return opencl_ok(code, "clEnqueueNDRangeKernel", kernel->name, gpu);
 }
 

@@ -41,7 +41,8 @@ static void the_list_lays_the_files_out(void **state) {
     assert_true(file_exists(in_copy("01_cov2/cov2.c")) && file_exists(in_copy("20_adam/adam.cl")));
     r = command_run("exercise", "list", "--json", NULL);
     json_t *list = json_loads(r.out, 0, NULL);
-    assert_int_equal(json_integer_value(json_object_get(json_array_get(json_object_get(list, "exercises"), 0), "number")), 1);
+    assert_int_equal(
+        json_integer_value(json_object_get(json_array_get(json_object_get(list, "exercises"), 0), "number")), 1);
     json_decref(list);
 }
 
@@ -93,7 +94,8 @@ static void a_wrong_answer_is_json_and_can_be_replayed(void **state) {
 
 static void hints_come_one_by_one(void **state) {
     (void)state;
-    static const char *const counts[] = {"(hint 1 of 4)", "(hint 2 of 4)", "(hint 3 of 4)", "(hint 4 of 4)", "(hint 4 of 4)"};
+    static const char *const counts[] = {"(hint 1 of 4)", "(hint 2 of 4)", "(hint 3 of 4)", "(hint 4 of 4)",
+                                         "(hint 4 of 4)"};
     for (int i = 0; i < 5; i++) {
         CommandResult r = command_run("exercise", "hint", "1", NULL);
         command_expect(&r, 0);
@@ -117,7 +119,8 @@ static void reset_keeps_what_was_written(void **state) {
 }
 
 // SHA-256 of "open sesame".
-static const char KEY[] = "open sesame", KEY_SHA256[] = "41ef4bb0b23661e66301aac36066912dac037827b4ae63a7b1165a5aa93ed4eb\n";
+static const char KEY[] = "open sesame",
+                  KEY_SHA256[] = "41ef4bb0b23661e66301aac36066912dac037827b4ae63a7b1165a5aa93ed4eb\n";
 
 static void the_solution_opens_by_a_pass_or_the_key(void **state) {
     (void)state;
@@ -218,7 +221,8 @@ static void the_self_test_keeps_its_json(void **state) {
     assert_string_equal(json_string_value(json_object_get(e, "name")), "01_cov2");
     assert_true(json_is_true(json_object_get(e, "stub_fails")) && json_is_true(json_object_get(e, "solution_passes")));
     assert_true(json_integer_value(json_object_get(e, "mutants")) >= 4);
-    assert_int_equal(json_integer_value(json_object_get(e, "mutants")), json_integer_value(json_object_get(e, "mutants_killed")));
+    assert_int_equal(json_integer_value(json_object_get(e, "mutants")),
+                     json_integer_value(json_object_get(e, "mutants_killed")));
     assert_non_null(json_object_get(e, "mutants_named"));
     assert_non_null(json_object_get(e, "seconds"));
     json_decref(o);

@@ -47,10 +47,11 @@ static char *text_of(int columns, bool has_colour) {
 static void a_failure_says_all_in_its_order(void **state) {
     (void)state;
     char *text = text_of(100, false), *at = text;
-    static const char *const parts[] = {"ok   unturned", "FAIL direction", "E01 cov2  rung 3 of 6", "  case       cov2_from_rs(",
-                                        "  compared ",     "  yours ",       "  expected ",           "  off by ",
-                                        "  right ",        "  looks like ",  "  pictures ",           "  next ",
-                                        "hint 1",          "--seed 1"};
+    static const char *const parts[] = {
+        "ok   unturned", "FAIL direction", "E01 cov2  rung 3 of 6", "  case       cov2_from_rs(",
+        "  compared ",   "  yours ",       "  expected ",           "  off by ",
+        "  right ",      "  looks like ",  "  pictures ",           "  next ",
+        "hint 1",        "--seed 1"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         at = strstr(at, parts[i]);
         if (!at) fail_msg("'%s' is missing, or too early, in\n%s", parts[i], text);
@@ -66,7 +67,8 @@ static void lines_fit_the_terminal(void **state) {
         for (const char *line = text; *line; line += strcspn(line, "\n") + 1) {
             int length = (int)strcspn(line, "\n");
             bool is_word = strchr(line + 13, ' ') == NULL || strchr(line + 13, ' ') > line + length; // a long path
-            if (length > columns[i] && !is_word) fail_msg("%d columns, want %d: %.*s", length, columns[i], length, line);
+            if (length > columns[i] && !is_word)
+                fail_msg("%d columns, want %d: %.*s", length, columns[i], length, line);
         }
         free(text);
     }

@@ -24,7 +24,8 @@ static const Rewriting REWRITINGS[] = {
     {"cov2", "scale_is_variance",
      "REAL R[4] = {cos(theta), -sin(theta), sin(theta), cos(theta)}, D[2] = {sx, sy};\n"
      "S[0] = S[1] = S[2] = 0;\n"
-     "for (int k = 0; k < 2; k++) S[0] += R[k] * D[k] * R[k], S[1] += R[k] * D[k] * R[2 + k], S[2] += R[2 + k] * D[k] * R[2 + k];"},
+     "for (int k = 0; k < 2; k++) S[0] += R[k] * D[k] * R[k], S[1] += R[k] * D[k] * R[2 + k], S[2] += R[2 + k] * D[k] "
+     "* R[2 + k];"},
     {"cov2", "turned_backwards",
      "REAL a = (sx * sx + sy * sy) / 2, d = (sx * sx - sy * sy) / 2;\n"
      "S[0] = a + d * cos(2 * theta); S[1] = -d * sin(2 * theta); S[2] = a - d * cos(2 * theta);"},
@@ -47,7 +48,8 @@ static const Rewriting REWRITINGS[] = {
      "REAL ux = cos(theta) * sx, uy = sin(theta) * sx, vx = sin(theta) * sy, vy = cos(theta) * sy;\n"
      "S[0] = ux * ux + vx * vx; S[1] = ux * uy + vx * vy; S[2] = uy * uy + vy * vy;"},
     {"adam", "no_bias_correction",
-     "m[i] += (1 - b1) * (g[i] - m[i]); v[i] = mix(g[i] * g[i], v[i], b2); p[i] = fma(-lr, m[i] / (eps + sqrt(v[i])), p[i]);"},
+     "m[i] += (1 - b1) * (g[i] - m[i]); v[i] = mix(g[i] * g[i], v[i], b2); p[i] = fma(-lr, m[i] / (eps + sqrt(v[i])), "
+     "p[i]);"},
     {"adam", "eps_inside_root",
      "REAL a = m[i] * b1 + g[i] * (1 - b1), b = v[i] * b2 + g[i] * g[i] * (1 - b2); m[i] = a; v[i] = b;\n"
      "p[i] = p[i] - lr * rsqrt(eps + b / (1 - pow(b2, (REAL)t))) * a / (1 - pow(b1, (REAL)t));"},
@@ -60,11 +62,13 @@ static const double NAMED_PART = 0.9;
 
 static char *source_of(const Rewriting *r) {
     if (strcmp(r->exercise, "adam") == 0)
-        return mem_format("kernel void adam(int n, global REAL *p, global const REAL *g, global REAL *m, global REAL *v, "
-                          "REAL lr, REAL b1, REAL b2, REAL eps, int t) {\nint i = get_global_id(0);\nif (i >= n) return;\n%s\n}\n",
-                          r->body);
-    return mem_format("#include \"exercises/exercise.h\"\nvoid cov2_from_rs(REAL theta, REAL sx, REAL sy, REAL S[3]) {\n%s\n}\n",
-                      r->body);
+        return mem_format(
+            "kernel void adam(int n, global REAL *p, global const REAL *g, global REAL *m, global REAL *v, "
+            "REAL lr, REAL b1, REAL b2, REAL eps, int t) {\nint i = get_global_id(0);\nif (i >= n) return;\n%s\n}\n",
+            r->body);
+    return mem_format(
+        "#include \"exercises/exercise.h\"\nvoid cov2_from_rs(REAL theta, REAL sx, REAL sy, REAL S[3]) {\n%s\n}\n",
+        r->body);
 }
 
 // The name that the first wrong rung gives; "" for none.
@@ -109,9 +113,10 @@ static void mistakes_of_other_hands_are_named(void **state) {
 
 static void what_is_no_known_mistake_gets_no_name(void **state) {
     (void)state;
-    static const Rewriting unknown[] = {
-        {"cov2", "", "S[0] = sx; S[1] = theta; S[2] = sy * sy;"},
-        {"cov2", "", "REAL c = cos(theta), s = sin(theta); S[0] = c * c * sx * sx; S[1] = c * s * sx * sx; S[2] = s * s * sx * sx; (void)sy;"}};
+    static const Rewriting unknown[] = {{"cov2", "", "S[0] = sx; S[1] = theta; S[2] = sy * sy;"},
+                                        {"cov2", "",
+                                         "REAL c = cos(theta), s = sin(theta); S[0] = c * c * sx * sx; S[1] = c * s * "
+                                         "sx * sx; S[2] = s * s * sx * sx; (void)sy;"}};
     for (int i = 0; i < 2; i++) {
         char name[SUSPICION_NAME_BYTES];
         name_of(&unknown[i], 100 + i, name);
