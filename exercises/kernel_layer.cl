@@ -18,17 +18,13 @@ size_t exercise_shuffled(size_t i, size_t n, size_t order) {
     return i;
 }
 
-size_t exercise_local_id(uint d) {
-    return exercise_shuffled(get_local_id(d), get_local_size(d), get_global_offset(0));
-}
+size_t exercise_local_id(uint d) { return exercise_shuffled(get_local_id(d), get_local_size(d), get_global_offset(0)); }
 
-size_t exercise_group_id(uint d) {
-    return exercise_shuffled(get_group_id(d), get_num_groups(d), get_global_offset(0));
-}
+size_t exercise_group_id(uint d) { return exercise_shuffled(get_group_id(d), get_num_groups(d), get_global_offset(0)); }
 
 size_t exercise_global_id(uint d) { return exercise_group_id(d) * get_local_size(d) + exercise_local_id(d); }
 
-#define get_local_id exercise_local_id
-#define get_group_id exercise_group_id
-#define get_global_id exercise_global_id
+#define get_local_id         exercise_local_id
+#define get_group_id         exercise_group_id
+#define get_global_id        exercise_global_id
 #define get_global_offset(d) ((size_t)0)

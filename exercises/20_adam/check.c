@@ -13,7 +13,8 @@ typedef struct {
 
 // One step of both: `mine` by the answer, `ours` by the reference.
 static void step(Trial *trial, int count, State *mine, State *ours, const AdamRule *rule, int step_number) {
-    double n = count, lr = rule->learning_rate, b1 = rule->beta1, b2 = rule->beta2, eps = rule->epsilon, t = step_number;
+    double n = count, lr = rule->learning_rate, b1 = rule->beta1, b2 = rule->beta2, eps = rule->epsilon,
+           t = step_number;
     double *p = mine->p, *g = mine->g, *m = mine->m, *v = mine->v;
     CALL(trial_call, trial, "adam", IN(n), UPDATED_ARRAY(p, count), IN_ARRAY(g, count), UPDATED_ARRAY(m, count),
          UPDATED_ARRAY(v, count), IN(lr), IN(b1), IN(b2), IN(eps), IN(t));
@@ -129,8 +130,7 @@ static void draw_floor(Rng *rng, int k, double *in) {
 
 static void draw_rest(Rng *rng, int k, double *in) {
     draw(rng, k, in);
-    for (int i = 0; i < FEW; i++)
-        in[RULE + FEW + i] = in[RULE + 2 * FEW + i] = in[RULE + 3 * FEW + i] = 0;
+    for (int i = 0; i < FEW; i++) in[RULE + FEW + i] = in[RULE + 2 * FEW + i] = in[RULE + 3 * FEW + i] = 0;
 }
 
 static bool allows_rest(const double *in) {
@@ -144,7 +144,8 @@ static void rest(Trial *t, const double *in) {
     State mine = state_of(in), ours = mine;
     AdamRule rule = rule_of(in);
     step(t, FEW, &mine, &ours, &rule, (int)in[4]);
-    for (int i = 0; i < FEW; i++) trial_equal(t, "p where the gradient has always been 0: as it was", mine.p[i], ours.p[i]);
+    for (int i = 0; i < FEW; i++)
+        trial_equal(t, "p where the gradient has always been 0: as it was", mine.p[i], ours.p[i]);
 }
 
 // ---- sizes ----

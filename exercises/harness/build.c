@@ -152,8 +152,7 @@ static bool compile_c(const BuildJob *job, const char *compiler, const char *lib
     bool good = run_program(argv, printed, &code);
     mem_free(parent);
     mem_free(real);
-    if (!good)
-        return fail_context("cannot start the C compiler '%s'; install gcc, or set CC to a compiler", compiler);
+    if (!good) return fail_context("cannot start the C compiler '%s'; install gcc, or set CC to a compiler", compiler);
     *made = code == 0;
     return true;
 }

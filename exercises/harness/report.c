@@ -79,8 +79,9 @@ static void print_next(const Page *page, const char *root, const Verdict *v, con
                        "read %s/%02d_%s/README.md, then write it; hints: splatlab exercise hint %d", root, e->number,
                        e->name, e->number);
     else
-        page_paragraph(page, "next", PAGE_PLAIN, "splatlab exercise hint %d; replay: splatlab exercise run %d --seed %llu",
-                       e->number, e->number, (unsigned long long)result->seed);
+        page_paragraph(page, "next", PAGE_PLAIN,
+                       "splatlab exercise hint %d; replay: splatlab exercise run %d --seed %llu", e->number, e->number,
+                       (unsigned long long)result->seed);
 }
 
 static void print_failure(const Page *page, const char *root, const Verdict *v, int r) {

@@ -9,8 +9,8 @@
 enum {
     RUNG_NUMBERS_MAX = 320,
     RUNG_CASES = 12,
-    RUNG_SEEDS = 17,                       // sixteen fixed ones and a fresh one
-    RUNG_SECRET_SEEDS = 8,                 // that come from an instructor's key
+    RUNG_SEEDS = 17,       // sixteen fixed ones and a fresh one
+    RUNG_SECRET_SEEDS = 8, // that come from an instructor's key
     RUNG_SEEDS_MAX = RUNG_SEEDS + RUNG_SECRET_SEEDS,
 };
 

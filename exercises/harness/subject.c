@@ -24,8 +24,8 @@ struct Subject {
     Trouble trouble;
     double *numbers; // (capacity) of a request or an answer
     size_t capacity;
-    bool is_kernel, is_awake; // awake: a worker for kernels has said that it has compiled them
-    char *log;                // Oclgrind's report; NULL: not under Oclgrind
+    bool is_kernel, is_awake;              // awake: a worker for kernels has said that it has compiled them
+    char *log;                             // Oclgrind's report; NULL: not under Oclgrind
     char printed[WORKER_PRINTED_KEPT + 1]; // of the workers that died, and of the running one
 };
 
@@ -37,7 +37,8 @@ static bool start_worker(Subject *s) {
     snprintf(megabytes, sizeof megabytes, "%d", WORKER_MEGABYTES);
     const char *plain[] = {s->program, s->library, seconds, megabytes, NULL};
     const char *kernels[] = {s->program, "serve", s->library, NULL};
-    const char *watched[] = {"oclgrind", "--data-races", "--log", s->log, s->program, "serve", s->library, s->log, NULL};
+    const char *watched[] = {"oclgrind", "--data-races", "--log", s->log, s->program,
+                             "serve",    s->library,     s->log,  NULL};
     s->is_awake = !s->is_kernel;
     return worker_process_start(&s->worker, s->log ? watched : s->is_kernel ? kernels : plain);
 }

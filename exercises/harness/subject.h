@@ -75,7 +75,7 @@ Subject *subject_start(const char *library, const char *file);
 
 // Kernels on Oclgrind's device, which interprets each work-item and sees races and wrong addresses; about a thousand times as slow.
 Subject *subject_again_oclgrind(const Subject *subject); // another one of the same text
-bool subject_has_oclgrind(void); // is it installed?
+bool subject_has_oclgrind(void);                         // is it installed?
 bool subject_is_kernel(const Subject *subject);
 void subject_stop(Subject *subject); // accepts NULL
 

@@ -132,8 +132,7 @@ bool suspicion_find(const char *root, const Exercise *exercise, const Rung *rung
     BuildJob *jobs = mem_alloc((size_t)count + 1, sizeof *jobs);
     Subject **subjects = mem_alloc((size_t)count + 1, sizeof(Subject *));
     Testimony answer = {0}, ours = {0};
-    bool good =
-        build_variants(root, exercise, precision, paths, count, jobs) && start_all(jobs, count + 1, subjects);
+    bool good = build_variants(root, exercise, precision, paths, count, jobs) && start_all(jobs, count + 1, subjects);
     if (good && subjects[0]) testimony_take(rung, precision, subjects[0], &ours);
     if (good) testimony_take(rung, precision, subject, &answer);
     double best = 0;

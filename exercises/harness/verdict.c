@@ -86,7 +86,8 @@ static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *
         was_wrong |= is_wrong(result);
         TroubleKind kind = result->failure.trouble.kind;
         if (e->is_kernel && kind != TROUBLE_NONE && kind != TROUBLE_NOT_STARTED) break; // each new worker costs a while
-        if (kind == TROUBLE_TIMEOUT || kind == TROUBLE_FLOOD || kind == TROUBLE_ENDED || kind == TROUBLE_MEDDLING) break;
+        if (kind == TROUBLE_TIMEOUT || kind == TROUBLE_FLOOD || kind == TROUBLE_ENDED || kind == TROUBLE_MEDDLING)
+            break;
     }
     return good;
 }
@@ -94,7 +95,10 @@ static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *
 bool verdict_of(const char *root, const Exercise *exercise, const char *source, const Ledger *ledger,
                 const VerdictOptions *options, Verdict *v) {
     double began_s = clock_seconds();
-    *v = (Verdict){.exercise = exercise, .pictured = -1, .fresh_seed = options->seeds[options->seed_count - 1], .seed_count = options->seed_count};
+    *v = (Verdict){.exercise = exercise,
+                   .pictured = -1,
+                   .fresh_seed = options->seeds[options->seed_count - 1],
+                   .seed_count = options->seed_count};
     char *calls = exercise_path(root, exercise, "check_calls.c"), *file = exercise_file_name(exercise);
     BuildJob jobs[PRECISION_COUNT];
     Subject *subjects[PRECISION_COUNT] = {NULL};

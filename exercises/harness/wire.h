@@ -22,7 +22,7 @@ static const uint64_t WIRE_UNWRITTEN = 0x7ff8dead0000beefULL;
 // is_input, is_output: numbers go in, come out, or both; an input that is no output must come back unchanged.
 typedef struct {
     uint16_t is_input, is_output;
-    uint32_t count;     // numbers of one set
+    uint32_t count; // numbers of one set
 } WireArg;
 
 // Behind it: `sets` times the numbers (double) of all inputs, in their order. The function is called once a set.

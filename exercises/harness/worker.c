@@ -111,7 +111,6 @@ static const AnyCall *find_call(const Library *library, const char *name) {
     return NULL;
 }
 
-
 // False when the function is not started yet. (A function of its own: setjmp() leaves nothing else of a caller's certain.)
 static bool call_once(const AnyCall *call, Frame *frame) {
     if (setjmp(not_started_jump) != 0) return false;
@@ -188,7 +187,8 @@ int main(int argc, char **argv) {
     void *handle = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
     if (!handle) refuse(dlerror());
     const int *real_bytes = dlsym(handle, "REAL_BYTES");
-    Library library = {.calls = dlsym(handle, "CALLS"), .type = real_bytes && *real_bytes == sizeof(float) ? NUMBER_FLOAT : NUMBER_DOUBLE};
+    Library library = {.calls = dlsym(handle, "CALLS"),
+                       .type = real_bytes && *real_bytes == sizeof(float) ? NUMBER_FLOAT : NUMBER_DOUBLE};
     if (!library.calls || !real_bytes) refuse("the library was not built by splatlab exercise");
     worker_guard_library(dlsym(handle, "CALLS"));
     for (;;) serve(&library);

@@ -23,14 +23,50 @@
 // Refused whatever their arguments are.
 static const int REFUSED[] = {
 #ifdef __x86_64__
-    SYS_fork, SYS_vfork, SYS_creat, SYS_unlink, SYS_rename, SYS_rmdir, SYS_mkdir, SYS_link, SYS_symlink, SYS_chmod,
+    SYS_fork,
+    SYS_vfork,
+    SYS_creat,
+    SYS_unlink,
+    SYS_rename,
+    SYS_rmdir,
+    SYS_mkdir,
+    SYS_link,
+    SYS_symlink,
+    SYS_chmod,
     SYS_mknod,
 #endif
-    SYS_execve, SYS_execveat, SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_rt_sigqueueinfo,
-    SYS_rt_tgsigqueueinfo, SYS_setpgid, SYS_setsid, SYS_socket, SYS_connect, SYS_bind, SYS_unlinkat, SYS_renameat,
-    SYS_renameat2, SYS_mkdirat, SYS_linkat, SYS_symlinkat, SYS_fchmodat, SYS_truncate, SYS_mknodat, SYS_mount,
-    SYS_chroot, SYS_prlimit64, SYS_setrlimit, SYS_pidfd_open, SYS_pidfd_send_signal, SYS_openat2, SYS_io_uring_setup,
-    SYS_bpf, SYS_unshare, SYS_setns};
+    SYS_execve,
+    SYS_execveat,
+    SYS_ptrace,
+    SYS_process_vm_readv,
+    SYS_process_vm_writev,
+    SYS_rt_sigqueueinfo,
+    SYS_rt_tgsigqueueinfo,
+    SYS_setpgid,
+    SYS_setsid,
+    SYS_socket,
+    SYS_connect,
+    SYS_bind,
+    SYS_unlinkat,
+    SYS_renameat,
+    SYS_renameat2,
+    SYS_mkdirat,
+    SYS_linkat,
+    SYS_symlinkat,
+    SYS_fchmodat,
+    SYS_truncate,
+    SYS_mknodat,
+    SYS_mount,
+    SYS_chroot,
+    SYS_prlimit64,
+    SYS_setrlimit,
+    SYS_pidfd_open,
+    SYS_pidfd_send_signal,
+    SYS_openat2,
+    SYS_io_uring_setup,
+    SYS_bpf,
+    SYS_unshare,
+    SYS_setns};
 enum { REFUSED_COUNT = sizeof REFUSED / sizeof *REFUSED, STEPS_MAX = 2 * REFUSED_COUNT + 64 };
 
 #ifdef ARCHITECTURE
@@ -45,16 +81,14 @@ static void add(Program *p, struct sock_filter step) {
     p->steps[p->count++] = step;
 }
 
-#define NUMBER_AT offsetof(struct seccomp_data, nr)
+#define NUMBER_AT      offsetof(struct seccomp_data, nr)
 #define ARGUMENT_AT(k) (offsetof(struct seccomp_data, args) + 8 * (k)) // its lower half
-#define REFUSE (SECCOMP_RET_ERRNO | EPERM)
+#define REFUSE         (SECCOMP_RET_ERRNO | EPERM)
 
 static void add_load(Program *p, size_t at) {
     add(p, (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, (uint32_t)at));
 }
-static void add_end(Program *p, uint32_t verdict) {
-    add(p, (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, verdict));
-}
+static void add_end(Program *p, uint32_t verdict) { add(p, (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, verdict)); }
 // Goes on with the next `yes` steps left out, or the next `no`.
 static void add_equal(Program *p, uint32_t value, uint8_t yes, uint8_t no) {
     add(p, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, yes, no));

@@ -1,8 +1,8 @@
 // exercise_watch.c - `splatlab exercise watch`: one screen, drawn anew at each save; keys go on, back and ask for help.
 #include "lab/app/exercise_options.h"
 
-#include "exercises/harness/report.h"
 #include "exercises/harness/pictures.h"
+#include "exercises/harness/report.h"
 #include "exercises/harness/standing.h"
 #include "lab/app/command_line.h"
 #include "lab/base/fail.h"
@@ -182,7 +182,8 @@ static void show(Watch *w) {
         posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
         posix_spawn_file_actions_adddup2(&actions, 1, 2);
-        if (posix_spawn(&w->pictures, "/proc/self/exe", &actions, NULL, (char *const *)argv, environ) != 0) w->pictures = 0;
+        if (posix_spawn(&w->pictures, "/proc/self/exe", &actions, NULL, (char *const *)argv, environ) != 0)
+            w->pictures = 0;
         posix_spawn_file_actions_destroy(&actions);
     }
     fflush(stdout);

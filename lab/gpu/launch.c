@@ -54,7 +54,8 @@ bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, cons
     if (!global[0]) return true; // nothing to do
     gpu->counts.launches++;
     cl_event *event = stage_next_event(gpu);
-    cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, offset ? first : NULL, global, local, 0, NULL, event);
+    cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, offset ? first : NULL, global, local,
+                                         0, NULL, event);
     return opencl_ok(code, "clEnqueueNDRangeKernel", kernel->name, gpu);
 }
 

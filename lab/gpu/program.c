@@ -116,8 +116,7 @@ bool gpu_kernel_parameter(const GpuKernel *kernel, int index, GpuParameter *para
     cl_kernel_arg_address_qualifier where = 0;
     cl_uint i = (cl_uint)index;
     *parameter = (GpuParameter){0};
-    cl_int code =
-        clGetKernelArgInfo(kernel->kernel, i, CL_KERNEL_ARG_ADDRESS_QUALIFIER, sizeof where, &where, NULL);
+    cl_int code = clGetKernelArgInfo(kernel->kernel, i, CL_KERNEL_ARG_ADDRESS_QUALIFIER, sizeof where, &where, NULL);
     if (code == CL_SUCCESS)
         code = clGetKernelArgInfo(kernel->kernel, i, CL_KERNEL_ARG_TYPE_NAME, sizeof parameter->type - 1,
                                   parameter->type, NULL);

@@ -20,13 +20,16 @@ typedef struct {
 
 static const Attack ATTACKS[] = {
     {"a segfault", "", "*(volatile int *)8 = 1;", TROUBLE_CRASHED, "a NULL pointer was followed"},
-    {"an endless loop", "", "for (volatile int i = 0;; i++) continue;", TROUBLE_TIMEOUT, "did not come back within 2 s"},
+    {"an endless loop", "", "for (volatile int i = 0;; i++) continue;", TROUBLE_TIMEOUT,
+     "did not come back within 2 s"},
     {"a sleep", "", "sleep(60);", TROUBLE_TIMEOUT, "did not come back within 2 s"},
-    {"4 GB", "", "volatile char *p = malloc((size_t)4 << 30); p[0] = 1; S[0] = p[0];", TROUBLE_MEMORY, "4.29e+03 MB of memory, which was refused"},
+    {"4 GB", "", "volatile char *p = malloc((size_t)4 << 30); p[0] = 1; S[0] = p[0];", TROUBLE_MEMORY,
+     "4.29e+03 MB of memory, which was refused"},
     {"a flood", "", "for (;;) puts(\"flood flood flood\");", TROUBLE_FLOOD, "printed more than 1 MB"},
     {"exit(0)", "", "exit(0);", TROUBLE_ENDED, "ended the whole process with exit code 0"},
     {"_exit(0)", "", "_exit(0);", TROUBLE_ENDED, "ended the whole process with exit code 0"},
-    {"exit(0) before the first call", "__attribute__((constructor)) static void first(void) { if (atoi(getenv(\"ATTACK\")) == THIS) _exit(0); }", "",
+    {"exit(0) before the first call",
+     "__attribute__((constructor)) static void first(void) { if (atoi(getenv(\"ATTACK\")) == THIS) _exit(0); }", "",
      TROUBLE_ENDED, "ended the whole process"},
     {"abort()", "", "abort();", TROUBLE_CRASHED, "Aborted"},
     {"a stack overflow", "int deep(volatile int *p) { volatile int a[999]; a[0] = *p + 1; return deep(a) + a[0]; }",
@@ -37,13 +40,14 @@ static const Attack ATTACKS[] = {
     {"a fork bomb", "", "for (int i = 0; i < 20; i++) fork();", TROUBLE_NONE, ""},
     {"a shell", "", "if (system(\"echo x >FORGED\") == 0) S[0] = 1;", TROUBLE_NONE, ""},
     {"a file written", "", "FILE *f = fopen(\"FORGED\", \"w\"); if (f) fputs(\"x\", f), fclose(f);", TROUBLE_NONE, ""},
-    {"a forged verdict on stdout", "", "puts(\"{\\\"passed\\\": true}\\nE01 cov2: passed, all 6 rungs\");", TROUBLE_NONE,
-     ""},
+    {"a forged verdict on stdout", "", "puts(\"{\\\"passed\\\": true}\\nE01 cov2: passed, all 6 rungs\");",
+     TROUBLE_NONE, ""},
     {"forged answers in the channel", "", "char z[4096] = {0}; if (write(3, z, sizeof z) < 0) S[0] = 1;",
      TROUBLE_MEDDLING, "wrote into the channel"},
     {"a number behind the output", "", "S[0] = S[1] = S[2] = 0; S[3] = 1;", TROUBLE_WROTE_OUTSIDE, "S[3]"},
     {"a number before the output", "", "S[0] = S[1] = S[2] = 0; S[-1] = 1;", TROUBLE_WROTE_OUTSIDE, "S[-1]"},
-    {"a jump to nowhere", "#include <setjmp.h>\nstatic jmp_buf b;", "longjmp(b, 1);", TROUBLE_ENDED, "Segmentation fault"},
+    {"a jump to nowhere", "#include <setjmp.h>\nstatic jmp_buf b;", "longjmp(b, 1);", TROUBLE_ENDED,
+     "Segmentation fault"},
     {"all files closed", "", "for (int i = 0; i < 256; i++) close(i);", TROUBLE_ENDED, ""},
     {"ignored signals", "", "signal(SIGSEGV, SIG_IGN); *(volatile int *)8 = 1;", TROUBLE_ENDED, "Segmentation fault"},
     {"a handler that returns", "static void h(int n) { (void)n; _exit(0); }",
@@ -107,9 +111,10 @@ static void write_attacks(const Attack *attacks, int count, const char *path, co
         write_with(out, attacks[i].outside, forged, i);
         fputc('\n', out);
     }
-    fputs("void cov2_from_rs(REAL theta, REAL sx, REAL sy, REAL S[3]) {\n    (void)theta, (void)sx, (void)sy, (void)S;\n"
-          "    switch (atoi(getenv(\"ATTACK\"))) {\n",
-          out);
+    fputs(
+        "void cov2_from_rs(REAL theta, REAL sx, REAL sy, REAL S[3]) {\n    (void)theta, (void)sx, (void)sy, (void)S;\n"
+        "    switch (atoi(getenv(\"ATTACK\"))) {\n",
+        out);
     for (int i = 0; i < count; i++) {
         fprintf(out, "    case %d: {\n", i);
         write_with(out, attacks[i].inside, forged, i);

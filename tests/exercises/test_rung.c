@@ -24,7 +24,8 @@ static void answer(const char *body) {
                             body);
     exercise_files_write("01_cov2/cov2.c", text);
     mem_free(text);
-    char *source = exercise_path(root, EXERCISES[0], "cov2.c"), *calls = exercise_path(root, EXERCISES[0], "check_calls.c");
+    char *source = exercise_path(root, EXERCISES[0], "cov2.c"),
+         *calls = exercise_path(root, EXERCISES[0], "check_calls.c");
     for (int p = 0; p < PRECISION_COUNT; p++) {
         BuildJob job = {.root = root, .source = source, .calls = calls, .precision = (Precision)p};
         assert_true(build_all(&job, 1));
@@ -141,8 +142,10 @@ static void the_same_seed_draws_the_same_case_and_floats(void **state) {
 static void a_compiler_error_names_the_students_line(void **state) {
     (void)state;
     const char *root = exercise_files_fresh();
-    exercise_files_write("01_cov2/cov2.c", "#include \"exercises/exercise.h\"\nvoid cov2_from_rs(REAL theta) {\n    oops;\n}\n");
-    char *source = exercise_path(root, EXERCISES[0], "cov2.c"), *calls = exercise_path(root, EXERCISES[0], "check_calls.c");
+    exercise_files_write("01_cov2/cov2.c",
+                         "#include \"exercises/exercise.h\"\nvoid cov2_from_rs(REAL theta) {\n    oops;\n}\n");
+    char *source = exercise_path(root, EXERCISES[0], "cov2.c"),
+         *calls = exercise_path(root, EXERCISES[0], "check_calls.c");
     BuildJob job = {.root = root, .source = source, .calls = calls, .precision = PRECISION_DOUBLE};
     assert_true(build_all(&job, 1));
     assert_null(job.library);

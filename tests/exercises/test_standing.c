@@ -26,8 +26,9 @@ static void progress_comes_back(void **state) {
 static void a_broken_progress_file_is_said_and_kept(void **state) {
     (void)state;
     const char *root = exercise_files_fresh();
-    static const char *const broken[] = {"{", "{\"01_cov2\": {\"passed\": 3, \"solved\": true}}",
-                                         "{\"01_cov2\": {\"passed\": [], \"solved\": true, \"runs\": \"x\", \"hints\": 0}}"};
+    static const char *const broken[] = {
+        "{", "{\"01_cov2\": {\"passed\": 3, \"solved\": true}}",
+        "{\"01_cov2\": {\"passed\": [], \"solved\": true, \"runs\": \"x\", \"hints\": 0}}"};
     for (int i = 0; i < 3; i++) {
         Standing all[EXERCISE_COUNT];
         exercise_files_write("progress.json", broken[i]);
@@ -68,7 +69,8 @@ static void every_exercise_has_four_hints_a_page_and_its_files(void **state) {
         for (int h = 0; h < HINT_COUNT; h++) {
             char *text;
             if (!hints_read(root, EXERCISES[i], h, &text)) fail_msg("%s", fail_text());
-            if (strncmp(text, HEADS[h], strlen(HEADS[h])) != 0) fail_msg("hint %d of %s: %s", h, EXERCISES[i]->name, text);
+            if (strncmp(text, HEADS[h], strlen(HEADS[h])) != 0)
+                fail_msg("hint %d of %s: %s", h, EXERCISES[i]->name, text);
             mem_free(text);
         }
     char *text;
@@ -87,7 +89,8 @@ static void what_is_not_started_is_found_in_its_kernel(void **state) {
     assert_true(kernel_scan_not_started(text, "b", &line));
     assert_int_equal(line, 7);
     // A function that both may call.
-    assert_true(kernel_scan_not_started("float f(float x) { NOT_STARTED; return x; }\nkernel void a() { }", "a", &line));
+    assert_true(
+        kernel_scan_not_started("float f(float x) { NOT_STARTED; return x; }\nkernel void a() { }", "a", &line));
     assert_int_equal(line, 1);
 }
 

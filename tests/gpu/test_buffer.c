@@ -90,6 +90,21 @@ static void an_empty_buffer_has_one_byte(void **state) {
     gpu_buffer_destroy(NULL);
 }
 
+static void a_part_is_the_same_memory_as_the_whole(void **state) {
+    enum { STEP = GPU_PART_STEP / sizeof(int), COUNT = 3 * STEP };
+    static int all[COUNT];
+    int middle[5] = {1, 2, 3, 4, 5};
+    GpuBuffer *whole, *part;
+    assert_true(gpu_buffer_create(*state, "whole", sizeof all, &whole));
+    assert_true(gpu_buffer_part(whole, "part", GPU_PART_STEP, sizeof middle, &part));
+    assert_int_equal(gpu_buffer_bytes(part), sizeof middle);
+    assert_true(gpu_buffer_write(part, middle, sizeof middle));
+    assert_true(gpu_buffer_read(whole, all, sizeof all));
+    for (int i = 0; i < COUNT; i++) assert_int_equal(all[i], i >= STEP && i < STEP + 5 ? i - STEP + 1 : 0);
+    gpu_buffer_destroy(part);
+    gpu_buffer_destroy(whole);
+}
+
 static void a_buffer_that_does_not_fit_fails_with_its_name_and_size(void **state) {
     GpuBuffer *buffer;
     size_t bytes = gpu_info(*state)->max_alloc_bytes + 1000000;
@@ -106,6 +121,7 @@ int main(void) {
         cmocka_unit_test(a_mapping_shows_and_changes_the_content),
         cmocka_unit_test(a_buffer_grows_by_half_and_never_shrinks),
         cmocka_unit_test(an_empty_buffer_has_one_byte),
+        cmocka_unit_test(a_part_is_the_same_memory_as_the_whole),
         cmocka_unit_test(a_buffer_that_does_not_fit_fails_with_its_name_and_size),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

@@ -139,6 +139,48 @@ static void an_unknown_kernel_name_fails_with_file_and_name(void **state) {
     gpu_program_destroy(NULL);
 }
 
+static void a_kernel_tells_what_its_arguments_are(void **state) {
+    const char *folder = support_scratch();
+    put_file(folder, "arguments.cl",
+             "kernel void f(int n, global const float *x, local int *y, uint u) { if (n) y[u] = (int)x[0]; }\n");
+    gpu_set_kernel_folder(folder);
+    GpuProgram *program;
+    GpuKernel *kernel;
+    assert_true(gpu_program_create(*state, "arguments.cl", "-cl-kernel-arg-info", &program));
+    assert_true(gpu_kernel(program, "f", &kernel));
+    assert_int_equal(gpu_kernel_parameters(kernel), 4);
+    static const GpuParameter expected[] = {
+        {"int", false, false}, {"float", true, false}, {"int", false, true}, {"uint", false, false}};
+    for (int i = 0; i < 4; i++) {
+        GpuParameter p;
+        assert_true(gpu_kernel_parameter(kernel, i, &p));
+        assert_string_equal(p.type, expected[i].type);
+        assert_true(p.is_buffer == expected[i].is_buffer && p.is_local == expected[i].is_local);
+    }
+    gpu_program_destroy(program);
+}
+
+static void ids_can_begin_elsewhere(void **state) {
+    const char *folder = support_scratch();
+    put_file(folder, "first.cl",
+             "kernel void first(global int *x) { if (get_local_id(0) == 0) x[0] = (int)get_global_id(0); }\n");
+    gpu_set_kernel_folder(folder);
+    GpuProgram *program;
+    GpuKernel *kernel;
+    GpuBuffer *buffer;
+    int got;
+    assert_true(gpu_program_create(*state, "first.cl", "", &program) && gpu_kernel(program, "first", &kernel));
+    assert_true(gpu_buffer_create(*state, "x", sizeof got, &buffer));
+    const GpuArg arg = gpu_buffer_arg(buffer);
+    assert_true(gpu_launch_args_from(kernel, gpu_range(64, 64), 3, &arg, 1) &&
+                gpu_buffer_read(buffer, &got, sizeof got));
+    assert_int_equal(got, 3);
+    assert_true(gpu_launch_args(kernel, gpu_range(64, 64), &arg, 1) && gpu_buffer_read(buffer, &got, sizeof got));
+    assert_int_equal(got, 0);
+    gpu_buffer_destroy(buffer);
+    gpu_program_destroy(program);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_compile_error_names_file_and_line, forget_folder),
@@ -150,6 +192,8 @@ int main(void) {
         cmocka_unit_test_teardown(a_missing_file_says_where_it_was_looked_for, forget_folder),
         cmocka_unit_test_teardown(a_file_that_includes_itself_fails, forget_folder),
         cmocka_unit_test(an_unknown_kernel_name_fails_with_file_and_name),
+        cmocka_unit_test(a_kernel_tells_what_its_arguments_are),
+        cmocka_unit_test(ids_can_begin_elsewhere),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

@@ -12,9 +12,10 @@ static char root[4096];
 const char *exercise_files_fresh(void) {
     const char *build = getenv("BUILD");
     snprintf(root, sizeof root, "%s/exercises", support_scratch());
-    char *command = mem_format("rm -rf '%s' && cp -r exercises '%s' && cd '%s' && rm -f progress.json instructor.sha256 "
-                               "*/*.before-* */*.png && for f in */stub.*; do d=${f%%/*}; rm -f $d/${d#*_}.*; done",
-                               root, root, root);
+    char *command =
+        mem_format("rm -rf '%s' && cp -r exercises '%s' && cd '%s' && rm -f progress.json instructor.sha256 "
+                   "*/*.before-* */*.png && for f in */stub.*; do d=${f%%/*}; rm -f $d/${d#*_}.*; done",
+                   root, root, root);
     assert_int_equal(system(command), 0);
     mem_free(command);
     setenv("SPLATLAB_EXERCISES", root, 1);
