@@ -50,8 +50,9 @@ static const Figure *find(const char *name) {
 // One frame suffices: nothing here has a place that is known only after the frame before.
 static bool draw(const Figure *figure, json_t *numbers, Image8 *image) {
     GuiRect place = {0, 0, figure->width, figure->height};
-    gui_open(NULL, 1);
-    gui_frame_begin(figure->width, figure->height, 0);
+    gui_open(NULL);
+    gui_set_scale(1, 1);
+    gui_frame_begin(figure->width, figure->height);
     gui_panel_begin("figure", place, PANEL_DEEP, 0);
     bool good = figure->draw(place, numbers);
     gui_panel_end();
