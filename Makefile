@@ -237,7 +237,7 @@ endif
 
 .PHONY: test
 test: all $(TESTS) $(KERNELS_COMPILE) ## run every test (minutes)
-	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKER=$(WORKER) tests/run $(TESTS) tests/lint/selftest.py tests/lint/pages.py
+	@BUILD=$(BUILD) SPLATLAB=$(PROGRAM) SPLATLAB_WORKERS=$(BUILD) tests/run $(TESTS) tests/lint/selftest.py tests/lint/pages.py
 
 GOLDEN_TESTS := $(BUILD)/tests/app/test_cmd_demo $(BUILD)/tests/app/test_widget
 

@@ -2,6 +2,7 @@
 #include "exercises/harness/catalogue.h"
 #include "exercises/harness/mine_picture2d.h"
 #include "exercises/harness/mine_rasterizer.h"
+#include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
 #include "splat3d/reference.h"
@@ -93,6 +94,7 @@ static void with_nothing_written_the_reference_draws(void **state) {
     Scene2d scene = small_scene();
     lay_out(false);
     Mine *mine = mine_open();
+    if (!mine) print_message("%s\n", fail_text());
     assert_non_null(mine);
     compare_plane(mine, &scene, text);
     assert_string_equal(text, "E01 cov2: the reference (not started yet)");
@@ -107,6 +109,7 @@ static void right_answers_draw_the_same_picture(void **state) {
     Scene2d scene = small_scene();
     lay_out(true);
     Mine *mine = mine_open();
+    if (!mine) print_message("%s\n", fail_text());
     assert_non_null(mine);
     compare_plane(mine, &scene, text);
     assert_string_equal(text, "E01 cov2: yours");
@@ -120,6 +123,7 @@ static void what_is_saved_is_tried_again(void **state) {
     char *source = exercise_source(root, EXERCISES[0]);
     lay_out(true);
     Mine *mine = mine_open();
+    if (!mine) print_message("%s\n", fail_text());
     assert_non_null(mine);
     assert_false(mine_refresh(mine));
     write_text(source, "this is no C\n");
@@ -146,6 +150,7 @@ static void a_crash_is_shown_and_the_reference_draws(void **state) {
                        "    S[2] = s * s * sx * sx + c * c * sy * sy;\n"
                        "}\n");
     Mine *mine = mine_open();
+    if (!mine) print_message("%s\n", fail_text());
     assert_non_null(mine);
     compare_plane(mine, &scene, text);
     assert_string_equal(text, "E01 cov2: yours");
