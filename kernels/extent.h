@@ -5,8 +5,7 @@
 #ifndef SPLATLAB_KERNELS_EXTENT_H
 #define SPLATLAB_KERNELS_EXTENT_H
 
-static inline float extent_margin_px(float centre, float half_extent) {
-    return 0.01f + 1e-6f * (fabs(centre) + half_extent);
-}
+// A macro: for one splat or, as vectors, for several.
+#define EXTENT_MARGIN_PX(centre, half_extent) (0.01f + 1e-6f * (fabs(centre) + (half_extent)))
 
 #endif

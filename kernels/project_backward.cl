@@ -19,18 +19,31 @@
 //         above frame.sh_degree are left alone
 //     gradient_ndc, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
 //
-// One work-item: one Gaussian. Local memory: none. Reference: reference_project_backward(). Test: tests/splat3d/test_opencl_gradients.c.
+// One work-item: LANES Gaussians (lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
+// Reference: reference_project_backward(). Test: tests/splat3d/test_opencl_gradients.c.
 #include "shared.h"
 
 #include "projection.h"
 #include "sh_basis.h"
+#include "sh_field.h"
 
-static PairGradient sum_records(TileBox tiles, uint slot, __global const ushort *mask,
-                                __global const PairGradient *records) {
-    PairGradient sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+// The sums of a PairGradient.
+typedef struct {
+    Real w, wu, wv, wuu, wuv, wvv, r, g, b;
+} Sums;
+
+#if LANES == 1
+
+static Int is_in_view(int i, int end, __global const TileBox *box) { return box[i].x0 < box[i].x1; }
+
+static Sums sum_records(int i, int end, __global const TileBox *box, __global const uint *offset,
+                        __global const ushort *mask, __global const PairGradient *records) {
+    Sums sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    const TileBox tiles = box[i];
     const int count = (tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
+    uint slot = offset[i];
     for (int k = 0; k < count; k++, slot++) {
-        if (!mask[slot]) continue; // the ellipse misses this tile of its box: there is no record
+        if (!mask[slot]) continue; // the ellipse misses this tile of its box, or is hidden there: no record
         const PairGradient record = records[slot];
         sum.w += record.w;
         sum.wu += record.wu, sum.wv += record.wv;
@@ -40,79 +53,166 @@ static PairGradient sum_records(TileBox tiles, uint slot, __global const ushort 
     return sum;
 }
 
-// Gradient of one SH degree's coefficients, and what they add to the gradient of the direction: weight[k] = sh_k . d_colour.
-static void sh_backward(int count, const float *basis, float3 d_colour, __global const float *sh, __global float *d_sh,
-                        float *weight) {
-    const bool is_dark = !any(d_colour != 0); // then the coefficients need not be fetched
-    for (int k = 0; k < count; k++) {
-        weight[k] = is_dark ? 0 : dot(vload3(k, sh), d_colour);
-        vstore3(basis[k] * d_colour, k, d_sh);
+static void add_statistics(int i, int end, Int visible, Real d_mean_ndc, __global float *gradient_ndc,
+                           __global int *seen) {
+    if (!visible) return;
+    gradient_ndc[i] += d_mean_ndc;
+    seen[i] += 1;
+}
+
+#else
+
+static Int is_in_view(int first, int end, __global const TileBox *box) {
+    int in_view[LANES];
+    for (int lane = 0; lane < LANES; lane++) in_view[lane] = first + lane < end ? box[first + lane].x0 - box[first + lane].x1 : 0;
+    return vload16(0, in_view) < 0;
+}
+
+// One splat's records, added up as vectors of their first eight numbers and the ninth.
+static float16 sum_splat(TileBox tiles, uint slot, __global const ushort *mask, __global const PairGradient *records) {
+    float8 sum = (float8)(0.0f);
+    float last = 0;
+    const int count = (tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
+    for (int k = 0; k < count; k++, slot++) {
+        if (!mask[slot]) continue; // the ellipse misses this tile of its box, or is hidden there: no record
+        sum += vload8(0, (__global const float *)(records + slot));
+        last += records[slot].b;
+    }
+    return (float16)(sum, last, 0, 0, 0, 0, 0, 0, 0);
+}
+
+static Sums sum_records(int first, int end, __global const TileBox *box, __global const uint *offset,
+                        __global const ushort *mask, __global const PairGradient *records) {
+    float16 rows[LANES];
+    for (int lane = 0; lane < LANES; lane++) {
+        const int i = first + lane;
+        rows[lane] = i < end ? sum_splat(box[i], offset[i], mask, records) : (float16)(0.0f);
+    }
+    transpose16(rows);
+    const Sums sums = {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8]};
+    return sums;
+}
+
+static void add_statistics(int first, int end, Int visible, Real d_mean_ndc, __global float *gradient_ndc,
+                           __global int *seen) {
+    float norm[LANES];
+    int is_visible[LANES];
+    vstore16(d_mean_ndc, 0, norm);
+    vstore16(visible, 0, is_visible);
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!is_visible[lane]) continue;
+        gradient_ndc[first + lane] += norm[lane];
+        seen[first + lane] += 1;
     }
 }
 
-// Gradient of the unit quaternion (x y z w = w x y z) from that of the rotation's rows.
-static float4 rotation_backward(float4 quat, float3 d0, float3 d1, float3 d2) {
-    const float w = quat.x, x = quat.y, y = quat.z, z = quat.w;
-    return 2 * (float4)(x * (d2.y - d1.z) + y * (d0.z - d2.x) + z * (d1.x - d0.y),
-                        w * (d2.y - d1.z) + y * (d0.y + d1.x) + z * (d0.z + d2.x) - 2 * x * (d1.y + d2.z),
-                        w * (d0.z - d2.x) + x * (d0.y + d1.x) + z * (d1.z + d2.y) - 2 * y * (d0.x + d2.z),
-                        w * (d1.x - d0.y) + x * (d0.z + d2.x) + y * (d1.z + d2.y) - 2 * z * (d0.x + d1.y));
+#endif
+
+// Gradient of the unit quaternion (w x y z) from that of the rotation's rows.
+static void rotation_backward(const Real *quat, Vec3 d0, Vec3 d1, Vec3 d2, Real *d_quat) {
+    const Real w = quat[0], x = quat[1], y = quat[2], z = quat[3];
+    d_quat[0] = 2 * (x * (d2.y - d1.z) + y * (d0.z - d2.x) + z * (d1.x - d0.y));
+    d_quat[1] = 2 * (w * (d2.y - d1.z) + y * (d0.y + d1.x) + z * (d0.z + d2.x) - 2 * x * (d1.y + d2.z));
+    d_quat[2] = 2 * (w * (d0.z - d2.x) + x * (d0.y + d1.x) + z * (d1.z + d2.y) - 2 * y * (d0.x + d2.z));
+    d_quat[3] = 2 * (w * (d1.x - d0.y) + x * (d0.z + d2.x) + y * (d1.z + d2.y) - 2 * z * (d0.x + d1.y));
+}
+
+// What the splats' sums say about their parameters.
+typedef struct {
+    Vec3 d_mean; // without the part through the colour
+    Vec3 d_log_scale;
+    Real d_quat[4];
+    Real d_logit;
+    Vec3 d_colour;   // where the colour was not clamped at 0
+    Real d_mean_ndc; // |d mean2d|, x in units of half the width, y of half the height
+} Gradient;
+
+// From d of the unit quaternion to that of the parameter.
+static void normalisation_backward(const Projection *p, const Real *d_unit, Real *d_quat) {
+    Real along = (Real)(0.0f);
+    for (int k = 0; k < 4; k++) along += p->quat[k] * d_unit[k];
+    const Real inverse = 1.0f / p->quat_length;
+    for (int k = 0; k < 4; k++) d_quat[k] = (d_unit[k] - p->quat[k] * along) * inverse;
 }
 
 // Gradients of log-scale and quaternion, and of the mean in camera axes, from that of the mean on the screen and the sums of
 // W (P u)^2, W P u Q v and W (Q v)^2.
-static float3 covariance_backward(__private const FrameRecord *frame, const Projection *p, float2 d_mean_px, float uu,
-                                  float uv, float vv, float3 *d_log_scale, float4 *d_quat) {
-    const float3 n = (frame->low_pass_px2 * p->m0 + cross(p->m1, cross(p->m0, p->m1))) * p->inv_var_v;
-    const float3 d_m0 = uu * n + uv * p->m1, d_v = uv * n + vv * p->m1;
-    const float3 d_m1 = p->shear * d_m0 + d_v;
-    *d_log_scale = d_m0 * n + d_v * p->m1;
+static Vec3 covariance_backward(const FrameRecord *frame, const Projection *p, Real d_x_px, Real d_y_px, Real uu,
+                                Real uv, Real vv, Gradient *gradient) {
+    const Vec3 n = vec3_scale(
+        vec3_add(vec3_scale(p->m0, (Real)(frame->low_pass_px2)), vec3_cross(p->m1, vec3_cross(p->m0, p->m1))),
+        p->inv_var_v);
+    const Vec3 d_m0 = vec3_mix(n, uu, p->m1, uv), d_v = vec3_mix(n, uv, p->m1, vv);
+    const Vec3 d_m1 = vec3_add(vec3_scale(d_m0, p->shear), d_v);
+    gradient->d_log_scale = vec3_add(vec3_mul(d_m0, n), vec3_mul(d_v, p->m1));
 
     // d R_row = sum over T's rows of T[.][row] d M S
-    const float3 e0 = d_m0 * p->scale, e1 = d_m1 * p->scale;
-    const float4 d_unit = rotation_backward(p->quat, p->t0.x * e0 + p->t1.x * e1, p->t0.y * e0 + p->t1.y * e1,
-                                            p->t0.z * e0 + p->t1.z * e1);
-    *d_quat = (d_unit - p->quat * dot(p->quat, d_unit)) / p->quat_length;
+    const Vec3 e0 = vec3_mul(d_m0, p->scale), e1 = vec3_mul(d_m1, p->scale);
+    Real d_unit[4];
+    rotation_backward(p->quat, vec3_mix(e0, p->t0.x, e1, p->t1.x), vec3_mix(e0, p->t0.y, e1, p->t1.y),
+                      vec3_mix(e0, p->t0.z, e1, p->t1.z), d_unit);
+    normalisation_backward(p, d_unit, gradient->d_quat);
 
     // T0 = fx / z (W0 - ratio_x W2), T1 alike. M is proportional to 1 / z as it is to the scales, hence the sum of their gradients.
-    const float3 d_t0 = rows_apply(p->r0, p->r1, p->r2, e0), d_t1 = rows_apply(p->r0, p->r1, p->r2, e1);
-    const float inv_z = 1.0f / p->point.z;
-    const float2 focal = (float2)(frame->focal[0], frame->focal[1]);
-    const float3 w2 = frame_rotation_row(frame, 2);
-    const float2 ratio = p->point.xy * inv_z;
-    const float2 d_ratio_of_j = -inv_z * focal * (float2)(dot(d_t0, w2), dot(d_t1, w2));
-    const float2 d_xy = inv_z * (focal * d_mean_px + select((float2)(0), d_ratio_of_j, ratio == p->ratio));
-    return (float3)(d_xy, -dot(d_xy, ratio) - inv_z * dot(*d_log_scale, (float3)(1)));
+    const Vec3 d_t0 = rows_apply(p->r0, p->r1, p->r2, e0), d_t1 = rows_apply(p->r0, p->r1, p->r2, e1);
+    const Real inv_z = 1.0f / p->point.z, ratio_x = p->point.x * inv_z, ratio_y = p->point.y * inv_z;
+    const Real x_scale = frame->focal[0] * inv_z, y_scale = frame->focal[1] * inv_z, zero = (Real)(0.0f);
+    const Vec3 w2 = frame_rotation_row(frame, 2);
+    const Real of_j_x = select(zero, -inv_z * vec3_dot(d_t0, w2), ratio_x == p->ratio_x);
+    const Real of_j_y = select(zero, -inv_z * vec3_dot(d_t1, w2), ratio_y == p->ratio_y);
+    const Real d_x = x_scale * (d_x_px + of_j_x), d_y = y_scale * (d_y_px + of_j_y);
+    const Vec3 d_scale = gradient->d_log_scale;
+    return vec3(d_x, d_y, -(d_x * ratio_x + d_y * ratio_y) - inv_z * (d_scale.x + d_scale.y + d_scale.z));
 }
 
-// What one splat's sums say about its parameters; all zero for a splat out of view.
-typedef struct {
-    float3 d_mean; // without the part through the colour
-    float3 d_log_scale;
-    float4 d_quat;
-    float d_logit;
-    float3 d_colour;  // where the colour was not clamped at 0
-    float d_mean_ndc; // |d mean2d|, x in units of half the width, y of half the height
-} Gradient;
-
-static Gradient splat_backward(__private const FrameRecord *frame, PairGradient sum, ScreenSplat splat, float logit,
+static Gradient splat_backward(const FrameRecord *frame, const Sums *sum, Vec3 colour, Real logit,
                                const Projection *p) {
-    const float a = p->inv_var_u, b = p->inv_var_v; // P, Q
-    const float2 d_mean_px = (float2)(a * sum.wu, p->shear * a * sum.wu + b * sum.wv);
+    const Real a = p->inv_var_u, b = p->inv_var_v, zero = (Real)(0.0f); // P, Q
+    const Real d_x_px = a * sum->wu, d_y_px = p->shear * a * sum->wu + b * sum->wv;
     Gradient gradient;
-    float3 d_point = covariance_backward(frame, p, d_mean_px, a * a * sum.wuu, a * b * sum.wuv, b * b * sum.wvv,
-                                         &gradient.d_log_scale, &gradient.d_quat);
-    gradient.d_colour = (float3)(0);
+    Vec3 d_point = covariance_backward(frame, p, d_x_px, d_y_px, a * a * sum->wuu, a * b * sum->wuv, b * b * sum->wvv,
+                                       &gradient);
+    gradient.d_colour = vec3(zero, zero, zero);
     if (frame->is_depth)
-        d_point.z += sum.r;
+        d_point.z += sum->r;
     else
-        gradient.d_colour = (float3)(splat.r > 0 ? sum.r : 0, splat.g > 0 ? sum.g : 0, splat.b > 0 ? sum.b : 0);
+        gradient.d_colour = vec3(select(zero, sum->r, colour.x > 0), select(zero, sum->g, colour.y > 0),
+                                 select(zero, sum->b, colour.z > 0));
     gradient.d_mean = rows_apply_transposed(frame_rotation_row(frame, 0), frame_rotation_row(frame, 1),
                                             frame_rotation_row(frame, 2), d_point);
-    gradient.d_logit = sum.w / (1.0f + exp(logit));
-    const float2 d_ndc = d_mean_px * (float2)(0.5f * frame->width, 0.5f * frame->height);
-    gradient.d_mean_ndc = sqrt(dot(d_ndc, d_ndc));
+    gradient.d_logit = sum->w / (1.0f + exp(logit));
+    const Real ndc_x = d_x_px * (0.5f * frame->width), ndc_y = d_y_px * (0.5f * frame->height);
+    gradient.d_mean_ndc = sqrt(ndc_x * ndc_x + ndc_y * ndc_y);
     return gradient;
+}
+
+static Vec3 vec3_where(Int condition, Vec3 v) {
+    const Real zero = (Real)(0.0f);
+    return vec3(select(zero, v.x, condition), select(zero, v.y, condition), select(zero, v.z, condition));
+}
+
+// Zero for the splats that are not visible, whatever came out for them.
+static void keep_visible(Int visible, Gradient *gradient) {
+    gradient->d_mean = vec3_where(visible, gradient->d_mean);
+    gradient->d_log_scale = vec3_where(visible, gradient->d_log_scale);
+    for (int k = 0; k < 4; k++) gradient->d_quat[k] = select((Real)(0.0f), gradient->d_quat[k], visible);
+    gradient->d_logit = select((Real)(0.0f), gradient->d_logit, visible);
+    gradient->d_colour = vec3_where(visible, gradient->d_colour);
+}
+
+// Colours of splats on the screen.
+static Vec3 load_colours(int first, __global const ScreenSplat *screen) {
+#if LANES == 1
+    return vec3(screen[first].r, screen[first].g, screen[first].b);
+#else
+    float r[LANES], g[LANES], b[LANES];
+    for (int lane = 0; lane < LANES; lane++) {
+        r[lane] = screen[first + lane].r;
+        g[lane] = screen[first + lane].g;
+        b[lane] = screen[first + lane].b;
+    }
+    return vec3(vload16(0, r), vload16(0, g), vload16(0, b));
+#endif
 }
 
 __kernel void project_backward(const FrameRecord frame, __global const float *mean, __global const float *log_scale,
@@ -125,47 +225,35 @@ __kernel void project_backward(const FrameRecord frame, __global const float *me
                                __global float *d_sh0, __global float *d_sh1, __global float *d_sh2,
                                __global float *d_sh3, const int has_statistics, __global float *gradient_ndc,
                                __global int *seen) {
-    const int i = (int)get_global_id(0);
-    if (i >= frame.splat_count) return;
-    const TileBox tiles = box[i];
-    const float3 mean_world = vload3(i, mean);
+    const int first = (int)get_global_id(0) * LANES, end = frame.splat_count;
+    if (first >= end) return;
+    const Real zero = (Real)(0.0f);
+    const Vec3 mean_world = lanes_load3(mean, first), nothing = vec3(zero, zero, zero);
     Projection p;
-    Gradient gradient = {(float3)(0), (float3)(0), (float4)(0), 0, (float3)(0), 0};
-    float3 direction = (float3)(0);
-    float inv_distance = 0;
-    if (tiles.x0 < tiles.x1 && projection_compute(&frame, mean_world, vload3(i, log_scale), vload4(i, quat), &p)) {
-        const PairGradient sum = sum_records(tiles, offset[i], mask, records);
-        gradient = splat_backward(&frame, sum, screen[i], opacity_logit[i], &p);
-        if (has_statistics) {
-            gradient_ndc[i] += gradient.d_mean_ndc;
-            seen[i] += 1;
-        }
-        const float3 offset_world = mean_world - (float3)(frame.position[0], frame.position[1], frame.position[2]);
-        inv_distance = rsqrt(dot(offset_world, offset_world));
-        direction = offset_world * inv_distance;
+    Gradient gradient = {nothing, nothing, {zero, zero, zero, zero}, zero, nothing, zero};
+    Vec3 direction = nothing;
+    Real inv_distance = zero;
+    Int visible = is_in_view(first, end, box);
+    if (ANY(visible)) {
+        const Int can_be_drawn = projection_compute(&frame, mean_world, log_scale, quat, first, &p);
+        visible = visible && can_be_drawn; // the same again as in the forward pass
+        const Sums sums = sum_records(first, end, box, offset, mask, records);
+        gradient = splat_backward(&frame, &sums, load_colours(first, screen), lanes_load(opacity_logit, first), &p);
+        keep_visible(visible, &gradient);
+        if (has_statistics) add_statistics(first, end, visible, gradient.d_mean_ndc, gradient_ndc, seen);
+        const Vec3 offset_world = vec3_sub(mean_world, vec3_all(frame.position));
+        inv_distance = select(zero, 1.0f / sqrt(vec3_dot(offset_world, offset_world)), visible);
+        direction = vec3_where(visible, vec3_scale(offset_world, inv_distance));
     }
 
-    float3 d_direction = (float3)(0);
-    float basis[7], weight[7];
-    vstore3(SH_C0 * gradient.d_colour, i, d_sh0);
-    if (frame.sh_degree >= 1) {
-        sh_basis1(direction, basis);
-        sh_backward(3, basis, gradient.d_colour, sh1 + 9 * i, d_sh1 + 9 * i, weight);
-        d_direction += sh_slope1(weight);
-    }
-    if (frame.sh_degree >= 2) {
-        sh_basis2(direction, basis);
-        sh_backward(5, basis, gradient.d_colour, sh2 + 15 * i, d_sh2 + 15 * i, weight);
-        d_direction += sh_slope2(direction, weight);
-    }
-    if (frame.sh_degree >= 3) {
-        sh_basis3(direction, basis);
-        sh_backward(7, basis, gradient.d_colour, sh3 + 21 * i, d_sh3 + 21 * i, weight);
-        d_direction += sh_slope3(direction, weight);
-    }
-    const float3 d_through_colour = (d_direction - direction * dot(direction, d_direction)) * inv_distance;
-    vstore3(gradient.d_mean + d_through_colour, i, d_mean);
-    vstore3(gradient.d_log_scale, i, d_log_scale);
-    vstore4(gradient.d_quat, i, d_quat);
-    d_opacity_logit[i] = gradient.d_logit;
+    Real basis[SH_BASIS], weight[SH_BASIS];
+    sh_basis(frame.sh_degree, direction, basis);
+    lanes_store3(vec3_scale(gradient.d_colour, (Real)(SH_C0)), d_sh0, first);
+    sh_colour_backward(frame.sh_degree, basis, gradient.d_colour, first, sh1, sh2, sh3, d_sh1, d_sh2, d_sh3, weight);
+    const Vec3 d_direction = sh_slope(frame.sh_degree, direction, weight);
+    const Vec3 across = vec3_sub(d_direction, vec3_scale(direction, vec3_dot(direction, d_direction)));
+    lanes_store3(vec3_add(gradient.d_mean, vec3_scale(across, inv_distance)), d_mean, first);
+    lanes_store3(gradient.d_log_scale, d_log_scale, first);
+    lanes_store4(gradient.d_quat, d_quat, first);
+    lanes_store(gradient.d_logit, d_opacity_logit, first);
 }

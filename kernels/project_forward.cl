@@ -9,91 +9,118 @@
 //
 //     mean (N,3), log_scale (N,3), quat (N,4), opacity_logit (N), sh0 (N,1,3), sh1 (N,3,3), sh2 (N,5,3), sh3 (N,7,3):
 //         the model; degrees above frame.sh_degree are not read
-//     screen (N): the splat; not written when it is not visible
+//     screen (N): the splat; without meaning when it is not visible
 //     box (N): its tiles, all zero when it is not visible
-//     depth (N): camera z, world units; not written when it is not visible
+//     depth (N): camera z, world units; without meaning when it is not visible
 //
-// One work-item: one Gaussian. Local memory: none. Reference: reference_project_forward(). Test: tests/splat3d/test_opencl_project.c.
+// One work-item: LANES Gaussians (lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
+// Reference: reference_project_forward(). Test: tests/splat3d/test_opencl_project.c.
 #include "shared.h"
 
 #include "extent.h"
 #include "projection.h"
 #include "sh_basis.h"
-
-static float3 sh_sum(int count, const float *basis, __global const float *sh) {
-    float3 sum = 0;
-    for (int k = 0; k < count; k++) sum += basis[k] * vload3(k, sh);
-    return sum;
-}
+#include "sh_field.h"
 
 // Tiles of pixels whose centres lie in centre +- half, in one direction; false when there is none.
-static bool tile_range(float centre, float half_extent, int pixels, int *first, int *end) {
-    const float reach = half_extent + extent_margin_px(centre, half_extent);
-    const float low = centre - reach - 0.5f, high = centre + reach - 0.5f;
-    if (!(high >= 0 && low <= (float)(pixels - 1))) return false;
+static Int tile_range(Real centre, Real half_extent, int pixels, Int *first, Int *end) {
+    const Real reach = half_extent + EXTENT_MARGIN_PX(centre, half_extent);
+    const Real low = centre - reach - 0.5f, high = centre + reach - 0.5f;
+    const Real zero = (Real)(0.0f), last = (Real)((float)(pixels - 1));
+    const Int touches = high >= zero && low <= last;
     // Rounded by truncating numbers >= 0: ceil() and floor() are slow calls on some devices.
-    const float from = low > 0 ? low : 0, to = high < pixels - 1 ? high : pixels - 1;
-    const int first_pixel = (int)from + ((float)(int)from < from), last_pixel = (int)to;
+    const Real from = select(zero, low, low > zero), to = select(last, high, high < last);
+    const Int down = INT_OF(from), last_pixel = INT_OF(to);
+    const Int first_pixel = select(down, down + 1, REAL_OF(down) < from);
     *first = first_pixel / TILE_SIZE;
     *end = last_pixel / TILE_SIZE + 1;
-    return first_pixel <= last_pixel;
+    return touches && first_pixel <= last_pixel;
 }
+
+// Of splats in view; their covariance is in p.
+static Vec3 colour_of(const FrameRecord *frame, const Projection *p, Vec3 mean_world, Int visible, int first,
+                      __global const float *sh0, __global const float *sh1, __global const float *sh2,
+                      __global const float *sh3) {
+    const Real zero = (Real)(0.0f);
+    if (frame->is_depth) return vec3(p->point.z, zero + 1.0f, zero);
+    const Vec3 offset = vec3_sub(mean_world, vec3_all(frame->position));
+    Real basis[SH_BASIS];
+    sh_basis(frame->sh_degree, vec3_scale(offset, 1.0f / sqrt(vec3_dot(offset, offset))), basis);
+    const Vec3 higher = sh_colour(frame->sh_degree, basis, visible, first, sh1, sh2, sh3);
+    const Vec3 dc = lanes_load3(sh0, first);
+    return vec3(max(SH_C0 * dc.x + 0.5f + higher.x, zero), max(SH_C0 * dc.y + 0.5f + higher.y, zero),
+                max(SH_C0 * dc.z + 0.5f + higher.z, zero));
+}
+
+#define NUMBERS (int)(sizeof(ScreenSplat) / sizeof(float))
+
+#if LANES == 1
+
+static void store_splats(const Real *splat, const Int *tiles, int i, __global ScreenSplat *screen,
+                         __global TileBox *box) {
+    const TileBox range = {tiles[0], tiles[1], tiles[2], tiles[3]};
+    __global float *out = (__global float *)(screen + i);
+    box[i] = range;
+    if (range.x0 == range.x1) return;
+    for (int k = 0; k < NUMBERS; k++) out[k] = splat[k];
+}
+
+#else
+
+// Twelve numbers and four tile bounds of each splat: one square of sixteen.
+static void store_splats(const Real *splat, const Int *tiles, int first, __global ScreenSplat *screen,
+                         __global TileBox *box) {
+    float16 rows[LANES];
+    for (int k = 0; k < NUMBERS; k++) rows[k] = splat[k];
+    for (int k = 0; k < 4; k++) rows[NUMBERS + k] = as_float16(tiles[k]);
+    transpose16(rows);
+    for (int lane = 0; lane < LANES; lane++) {
+        vstore8(rows[lane].lo, 0, (__global float *)(screen + first + lane));
+        vstore4(rows[lane].s89ab, 2, (__global float *)(screen + first + lane));
+        vstore4(rows[lane].scdef, 0, (__global float *)(box + first + lane));
+    }
+}
+
+#endif
 
 __kernel void project_forward(const FrameRecord frame, __global const float *mean, __global const float *log_scale,
                               __global const float *quat, __global const float *opacity_logit,
                               __global const float *sh0, __global const float *sh1, __global const float *sh2,
                               __global const float *sh3, __global ScreenSplat *screen, __global TileBox *box,
                               __global float *depth) {
-    const int i = (int)get_global_id(0);
-    if (i >= frame.splat_count) return;
-    const TileBox nowhere = {0, 0, 0, 0};
-    box[i] = nowhere;
+    const int first = (int)get_global_id(0) * LANES;
+    if (first >= frame.splat_count) return;
+    Real splat[NUMBERS]; // in the record's order
+    Int tiles[4] = {(Int)(0), (Int)(0), (Int)(0), (Int)(0)};
+    for (int k = 0; k < NUMBERS; k++) splat[k] = (Real)(0.0f);
 
-    const float3 mean_world = vload3(i, mean);
-    const float log2_opacity = -log2(1.0f + exp(-opacity_logit[i]));
-    const float reach2 = 2.0f / LOG2_E * (log2_opacity - LOG2_ALPHA_MIN); // m^2 where alpha = ALPHA_MIN
+    const Vec3 mean_world = lanes_load3(mean, first);
+    const Real log2_opacity = -log2(1.0f + exp(-lanes_load(opacity_logit, first)));
+    const Real reach2 = 2.0f / LOG2_E * (log2_opacity - LOG2_ALPHA_MIN); // m^2 where alpha = ALPHA_MIN
     Projection p;
-    if (!(reach2 >= 0) || !projection_compute(&frame, mean_world, vload3(i, log_scale), vload4(i, quat), &p)) return;
-
-    ScreenSplat splat;
-    splat.x = frame.focal[0] * (p.point.x / p.point.z) + frame.centre[0];
-    splat.y = frame.focal[1] * (p.point.y / p.point.z) + frame.centre[1];
-    splat.along_u = -0.5f * LOG2_E * p.inv_var_u;
-    splat.along_v = -0.5f * LOG2_E * p.inv_var_v;
-    splat.shear = p.shear;
-    splat.log2_opacity = log2_opacity;
-    splat.half_width = sqrt(reach2 * p.xx);
-    splat.half_height = sqrt(reach2 * p.yy);
-    splat.widest_dy = p.xy / p.xx * splat.half_width;
-
-    TileBox tiles;
-    if (!tile_range(splat.x, splat.half_width, frame.width, &tiles.x0, &tiles.x1)) return;
-    if (!tile_range(splat.y, splat.half_height, frame.height, &tiles.y0, &tiles.y1)) return;
-
-    float3 colour = (float3)(p.point.z, 1, 0);
-    if (!frame.is_depth) {
-        const float3 position = (float3)(frame.position[0], frame.position[1], frame.position[2]);
-        const float3 offset = mean_world - position;
-        const float3 direction = offset / sqrt(dot(offset, offset));
-        float basis[7];
-        colour = SH_C0 * vload3(i, sh0) + 0.5f;
-        if (frame.sh_degree >= 1) {
-            sh_basis1(direction, basis);
-            colour += sh_sum(3, basis, sh1 + 9 * i);
-        }
-        if (frame.sh_degree >= 2) {
-            sh_basis2(direction, basis);
-            colour += sh_sum(5, basis, sh2 + 15 * i);
-        }
-        if (frame.sh_degree >= 3) {
-            sh_basis3(direction, basis);
-            colour += sh_sum(7, basis, sh3 + 21 * i);
-        }
+    Int visible = projection_compute(&frame, mean_world, log_scale, quat, first, &p);
+    visible = visible && reach2 >= 0 && LANE_NUMBERS + first < (Int)(frame.splat_count);
+    if (ANY(visible)) {
+        const Real inv_z = 1.0f / p.point.z;
+        splat[0] = frame.focal[0] * (p.point.x * inv_z) + frame.centre[0];
+        splat[1] = frame.focal[1] * (p.point.y * inv_z) + frame.centre[1];
+        splat[2] = -0.5f * LOG2_E * p.inv_var_u;
+        splat[3] = -0.5f * LOG2_E * p.inv_var_v;
+        splat[4] = p.shear;
+        splat[5] = log2_opacity;
+        const Real half_width = sqrt(reach2 * p.xx), half_height = sqrt(reach2 * p.yy);
+        splat[9] = half_width;
+        splat[10] = half_height;
+        splat[11] = p.xy / p.xx * half_width;
+        const Int in_columns = tile_range(splat[0], half_width, frame.width, &tiles[0], &tiles[2]);
+        const Int in_rows = tile_range(splat[1], half_height, frame.height, &tiles[1], &tiles[3]);
+        visible = visible && in_columns && in_rows;
+        for (int k = 0; k < 4; k++) tiles[k] = select((Int)(0), tiles[k], visible);
     }
-    splat.r = max(colour.x, 0.0f);
-    splat.g = max(colour.y, 0.0f);
-    splat.b = max(colour.z, 0.0f);
-    screen[i] = splat;
-    box[i] = tiles;
-    depth[i] = p.point.z;
+    if (ANY(visible)) {
+        const Vec3 colour = colour_of(&frame, &p, mean_world, visible, first, sh0, sh1, sh2, sh3);
+        splat[6] = colour.x, splat[7] = colour.y, splat[8] = colour.z;
+        lanes_store(p.point.z, depth, first);
+    }
+    store_splats(splat, tiles, first, screen, box);
 }

@@ -13,83 +13,94 @@
 #ifndef SPLATLAB_KERNELS_PROJECTION_H
 #define SPLATLAB_KERNELS_PROJECTION_H
 
+#include "lanes.h"
+
 #define LOG2_E          1.44269504f
 #define QUAT_LENGTH_MIN 1e-18f // a shorter quaternion has no direction: such a splat is not drawn
 
+// Of LANES splats.
 typedef struct {
-    float3 point;      // mean in camera axes
-    float2 ratio;      // x/z, y/z, clamped for J
-    float4 quat;       // unit, x y z w = the quaternion's w x y z
-    float quat_length; // before it was normalised
-    float3 scale;      // standard deviations, world units
-    float3 r0, r1, r2; // rows of R
-    float3 t0, t1;     // rows of T = J W, px per world unit
-    float3 m0, m1;     // rows of M = T R S, px
-    float xx, xy, yy;  // Sigma', px^2
-    float det;         // of Sigma', px^4
-    float inv_var_u, inv_var_v, shear;
+    Vec3 point;            // mean in camera axes
+    Real ratio_x, ratio_y; // x/z, y/z, clamped for J
+    Real quat[4];          // unit, w x y z
+    Real quat_length;      // before it was normalised
+    Vec3 scale;            // standard deviations, world units
+    Vec3 r0, r1, r2;       // rows of R
+    Vec3 t0, t1;           // rows of T = J W, px per world unit
+    Vec3 m0, m1;           // rows of M = T R S, px
+    Real xx, xy, yy;       // Sigma', px^2
+    Real det;              // of Sigma', px^4
+    Real inv_var_u, inv_var_v, shear;
 } Projection;
 
-static inline float3 frame_rotation_row(__private const FrameRecord *frame, int row) {
-    return (float3)(frame->rotation[3 * row], frame->rotation[3 * row + 1], frame->rotation[3 * row + 2]);
+static inline Vec3 frame_rotation_row(const FrameRecord *frame, int row) {
+    return vec3((Real)(frame->rotation[3 * row]), (Real)(frame->rotation[3 * row + 1]),
+                (Real)(frame->rotation[3 * row + 2]));
 }
 
 // a (3,3) given by rows, times the vector v
-static inline float3 rows_apply(float3 r0, float3 r1, float3 r2, float3 v) {
-    return (float3)(dot(r0, v), dot(r1, v), dot(r2, v));
+static inline Vec3 rows_apply(Vec3 r0, Vec3 r1, Vec3 r2, Vec3 v) {
+    return vec3(vec3_dot(r0, v), vec3_dot(r1, v), vec3_dot(r2, v));
 }
 
 // v^T a: the transposed matrix times v
-static inline float3 rows_apply_transposed(float3 r0, float3 r1, float3 r2, float3 v) {
-    return r0 * v.x + r1 * v.y + r2 * v.z;
+static inline Vec3 rows_apply_transposed(Vec3 r0, Vec3 r1, Vec3 r2, Vec3 v) {
+    return vec3_add(vec3_mix(r0, v.x, r1, v.y), vec3_scale(r2, v.z));
 }
 
 static inline void projection_rotation(Projection *p) {
-    const float w = p->quat.x, x = p->quat.y, y = p->quat.z, z = p->quat.w;
-    p->r0 = (float3)(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y));
-    p->r1 = (float3)(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x));
-    p->r2 = (float3)(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y));
+    const Real w = p->quat[0], x = p->quat[1], y = p->quat[2], z = p->quat[3];
+    p->r0 = vec3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y));
+    p->r1 = vec3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x));
+    p->r2 = vec3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y));
 }
 
 // Sigma' and its factors from T, R and S.
 static inline void projection_covariance(Projection *p, float low_pass_px2) {
-    p->m0 = rows_apply_transposed(p->r0, p->r1, p->r2, p->t0) * p->scale;
-    p->m1 = rows_apply_transposed(p->r0, p->r1, p->r2, p->t1) * p->scale;
-    const float square0 = dot(p->m0, p->m0), square1 = dot(p->m1, p->m1);
-    const float3 minors = cross(p->m0, p->m1);
+    p->m0 = vec3_mul(rows_apply_transposed(p->r0, p->r1, p->r2, p->t0), p->scale);
+    p->m1 = vec3_mul(rows_apply_transposed(p->r0, p->r1, p->r2, p->t1), p->scale);
+    const Real square0 = vec3_dot(p->m0, p->m0), square1 = vec3_dot(p->m1, p->m1);
+    const Vec3 minors = vec3_cross(p->m0, p->m1);
     p->xx = square0 + low_pass_px2;
-    p->xy = dot(p->m0, p->m1);
+    p->xy = vec3_dot(p->m0, p->m1);
     p->yy = square1 + low_pass_px2;
-    p->det = dot(minors, minors) + low_pass_px2 * (square0 + square1 + low_pass_px2);
+    p->det = vec3_dot(minors, minors) + low_pass_px2 * (square0 + square1 + low_pass_px2);
     p->inv_var_u = p->yy / p->det;
     p->inv_var_v = 1.0f / p->yy;
     p->shear = -p->xy * p->inv_var_v;
 }
 
-// mean, log_scale (3 floats each) and quat (4 floats: w x y z) of the splat. False when it cannot be drawn: nearer than the near plane,
-// a quaternion of length 0, a covariance that has no inverse or does not fit a float.
-static inline bool projection_compute(__private const FrameRecord *frame, float3 mean, float3 log_scale, float4 quat,
-                                      Projection *p) {
-    const float3 w0 = frame_rotation_row(frame, 0), w1 = frame_rotation_row(frame, 1),
-                 w2 = frame_rotation_row(frame, 2);
-    const float3 translation = (float3)(frame->translation[0], frame->translation[1], frame->translation[2]);
-    p->point = rows_apply(w0, w1, w2, mean) + translation;
-    p->quat_length = sqrt(dot(quat, quat));
-    if (!(p->point.z >= frame->near_depth)) return false;
-    if (!(p->quat_length > QUAT_LENGTH_MIN && isfinite(p->quat_length))) return false;
+// The field's quaternions (w x y z), normalised; false where they have no direction.
+static inline Int projection_quaternion(__global const float *quat, int first, Projection *p) {
+    Real *q = p->quat;
+    lanes_load4(quat, first, q);
+    p->quat_length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const Real inverse = 1.0f / p->quat_length;
+    for (int k = 0; k < 4; k++) q[k] *= inverse;
+    return p->quat_length > QUAT_LENGTH_MIN && isfinite(p->quat_length);
+}
 
-    p->quat = quat / p->quat_length;
+// mean: of the splats from `first` on, world; log_scale (N,3), quat (N,4): the fields. False for those that cannot be drawn: nearer than the
+// near plane, a quaternion of length 0, a covariance that has no inverse or does not fit a float.
+static inline Int projection_compute(const FrameRecord *frame, Vec3 mean, __global const float *log_scale,
+                                     __global const float *quat, int first, Projection *p) {
+    const Vec3 w0 = frame_rotation_row(frame, 0), w1 = frame_rotation_row(frame, 1), w2 = frame_rotation_row(frame, 2);
+    p->point = vec3_add(rows_apply(w0, w1, w2, mean), vec3_all(frame->translation));
+    const Int in_front = p->point.z >= frame->near_depth;
+    if (!ANY(in_front)) return in_front;
+    const Int has_direction = projection_quaternion(quat, first, p);
     projection_rotation(p);
-    p->scale = exp(log_scale);
+    const Vec3 log_of_scale = lanes_load3(log_scale, first);
+    p->scale = vec3(exp(log_of_scale.x), exp(log_of_scale.y), exp(log_of_scale.z));
 
-    const float inv_z = 1.0f / p->point.z;
-    p->ratio = clamp(p->point.xy * inv_z, (float2)(frame->ratio_low[0], frame->ratio_low[1]),
-                     (float2)(frame->ratio_high[0], frame->ratio_high[1]));
-    p->t0 = (w0 - w2 * p->ratio.x) * (frame->focal[0] * inv_z);
-    p->t1 = (w1 - w2 * p->ratio.y) * (frame->focal[1] * inv_z);
+    const Real inv_z = 1.0f / p->point.z;
+    p->ratio_x = clamp(p->point.x * inv_z, (Real)(frame->ratio_low[0]), (Real)(frame->ratio_high[0]));
+    p->ratio_y = clamp(p->point.y * inv_z, (Real)(frame->ratio_low[1]), (Real)(frame->ratio_high[1]));
+    p->t0 = vec3_scale(vec3_sub(w0, vec3_scale(w2, p->ratio_x)), frame->focal[0] * inv_z);
+    p->t1 = vec3_scale(vec3_sub(w1, vec3_scale(w2, p->ratio_y)), frame->focal[1] * inv_z);
     projection_covariance(p, frame->low_pass_px2);
-    return p->det > 0 && isfinite(p->det) && isfinite(p->inv_var_u) && isfinite(p->inv_var_v) &&
-           isfinite(p->xx * p->yy);
+    return in_front && has_direction && p->det > 0 && isfinite(p->det) && isfinite(p->inv_var_u) &&
+           isfinite(p->inv_var_v) && isfinite(p->xx * p->yy);
 }
 
 #endif

@@ -28,8 +28,8 @@
 
 // Block columns [*first, *end) that the ellipse covers in four bands of a tile row; top: y of the tile's upper edge.
 static void band_columns(ScreenSplat splat, float top, int columns, int4 *first, int4 *end) {
-    const float margin_x = extent_margin_px(splat.x, splat.half_width);
-    const float margin_y = extent_margin_px(splat.y, splat.half_height);
+    const float margin_x = EXTENT_MARGIN_PX(splat.x, splat.half_width);
+    const float margin_y = EXTENT_MARGIN_PX(splat.y, splat.half_height);
     const float4 band = (float4)(0, 4, 8, 12) + (top - splat.y);
     const float4 limit = (float4)(splat.half_height);
     const float4 from = max(band + (CENTRE_FIRST - margin_y), -limit);

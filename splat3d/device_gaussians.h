@@ -8,7 +8,7 @@
 typedef struct {
     int count;
     int sh_degree;
-    GpuBuffer *field[FIELD_COUNT]; // (N, width) floats; NULL above sh_degree
+    GpuBuffer *field[FIELD_COUNT]; // (N, width) floats, with room for whole groups of lanes; NULL above sh_degree
 } DeviceGaussians;
 
 // what: "model", "gradient"; stands in messages before the field's name. All numbers are zero.

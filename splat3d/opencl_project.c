@@ -1,12 +1,17 @@
 #include "splat3d/opencl_project.h"
 
-enum { GROUP_SIZE = 64 }; // work-items; one splat each
+enum {
+    LANES_CPU = 16, // splats of one work-item
+    GROUP_CPU = 4,  // work-items
+    GROUP_GPU = 64,
+};
 
-bool opencl_project_create(Gpu *gpu, OpenclProject *project) {
-    *project = (OpenclProject){0};
-    if (gpu_program_create(gpu, "project_forward.cl", "", &project->forward_program) &&
+bool opencl_project_create(Gpu *gpu, bool is_vectorised, OpenclProject *project) {
+    const char *options = is_vectorised ? "-D LANES=16" : "";
+    *project = (OpenclProject){.lanes = is_vectorised ? LANES_CPU : 1};
+    if (gpu_program_create(gpu, "project_forward.cl", options, &project->forward_program) &&
         gpu_kernel(project->forward_program, "project_forward", &project->forward) &&
-        gpu_program_create(gpu, "project_backward.cl", "", &project->backward_program) &&
+        gpu_program_create(gpu, "project_backward.cl", options, &project->backward_program) &&
         gpu_kernel(project->backward_program, "project_backward", &project->backward) &&
         gpu_buffer_create(gpu, "screen splats", 0, &project->screen) &&
         gpu_buffer_create(gpu, "tile boxes", 0, &project->box) && gpu_buffer_create(gpu, "depths", 0, &project->depth))
@@ -29,13 +34,19 @@ static GpuArg field_arg(const DeviceGaussians *g, GaussianFieldId id) {
     return gpu_buffer_arg(g->field[id] ? g->field[id] : g->field[FIELD_SH0]);
 }
 
+static size_t round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
+
+static GpuRange splats(const OpenclProject *project, size_t n) {
+    return gpu_range(round_up(n, project->lanes) / project->lanes, project->lanes == 1 ? GROUP_GPU : GROUP_CPU);
+}
+
 bool opencl_project_forward(OpenclProject *project, const FrameRecord *frame, const DeviceGaussians *model) {
-    const size_t n = (size_t)frame->splat_count;
-    if (!gpu_buffer_reserve(project->screen, n * sizeof(ScreenSplat)) ||
-        !gpu_buffer_reserve(project->box, n * sizeof(TileBox)) ||
-        !gpu_buffer_reserve(project->depth, n * sizeof(float)))
+    const size_t n = (size_t)frame->splat_count, room = round_up(n, project->lanes);
+    if (!gpu_buffer_reserve(project->screen, room * sizeof(ScreenSplat)) ||
+        !gpu_buffer_reserve(project->box, room * sizeof(TileBox)) ||
+        !gpu_buffer_reserve(project->depth, room * sizeof(float)))
         return false;
-    return gpu_launch(project->forward, ((GpuRange){.width = n, .group_width = GROUP_SIZE}),
+    return gpu_launch(project->forward, splats(project, n),
                       gpu_record_arg(frame, sizeof *frame), field_arg(model, FIELD_MEAN),
                       field_arg(model, FIELD_LOG_SCALE), field_arg(model, FIELD_QUAT),
                       field_arg(model, FIELD_OPACITY_LOGIT), field_arg(model, FIELD_SH0), field_arg(model, FIELD_SH1),
@@ -48,7 +59,7 @@ bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, c
                              GpuBuffer *seen) {
     const bool has_statistics = gradient_ndc && seen;
     return gpu_launch(
-        project->backward, ((GpuRange){.width = (size_t)frame->splat_count, .group_width = GROUP_SIZE}),
+        project->backward, splats(project, (size_t)frame->splat_count),
         gpu_record_arg(frame, sizeof *frame), field_arg(model, FIELD_MEAN), field_arg(model, FIELD_LOG_SCALE),
         field_arg(model, FIELD_QUAT), field_arg(model, FIELD_OPACITY_LOGIT), field_arg(model, FIELD_SH1),
         field_arg(model, FIELD_SH2), field_arg(model, FIELD_SH3), gpu_buffer_arg(project->screen),

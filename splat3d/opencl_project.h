@@ -8,12 +8,14 @@
 typedef struct {
     GpuProgram *forward_program, *backward_program;
     GpuKernel *forward, *backward;
-    GpuBuffer *screen; // (N) ScreenSplat; stale where the splat is not visible
+    size_t lanes;      // splats of one work-item; buffers have room for whole groups of them
+    GpuBuffer *screen; // (N) ScreenSplat; without meaning where the splat is not visible
     GpuBuffer *box;    // (N) TileBox, all zero where it is not visible
-    GpuBuffer *depth;  // (N) floats, camera z, world units; stale where it is not visible
+    GpuBuffer *depth;  // (N) floats, camera z, world units; without meaning where it is not visible
 } OpenclProject;
 
-bool opencl_project_create(Gpu *gpu, OpenclProject *project);
+// is_vectorised: sixteen splats in one work-item, for CPUs; else one, for GPUs. The same numbers up to rounding.
+bool opencl_project_create(Gpu *gpu, bool is_vectorised, OpenclProject *project);
 void opencl_project_destroy(OpenclProject *project); // accepts a zeroed, half-built or destroyed one
 
 // Enqueues; fills screen, box and depth.

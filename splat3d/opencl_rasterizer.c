@@ -154,7 +154,7 @@ bool opencl_rasterizer_create(Gpu *gpu, BlendKernels blend, OpenclRasterizer **r
     r->interface.api = &OPENCL_API;
     r->gpu = gpu;
     *rasterizer = r;
-    if (opencl_project_create(gpu, &r->project) && opencl_binning_create(gpu, &r->binning) &&
+    if (opencl_project_create(gpu, is_tile_wise, &r->project) && opencl_binning_create(gpu, &r->binning) &&
         opencl_blend_create(gpu, is_tile_wise, &r->blend))
         return true;
     opencl_rasterizer_destroy(r);

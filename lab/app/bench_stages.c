@@ -49,7 +49,7 @@ static bool create_model(BenchStages *s, const Gaussians *model) {
 
 static bool create_stages(BenchStages *s, BlendKernels blend) {
     const bool is_tile_wise = blend == BLEND_AUTO ? gpu_info(s->gpu)->is_cpu : blend == BLEND_CPU;
-    return opencl_project_create(s->gpu, &s->project) && opencl_binning_create(s->gpu, &s->binning) &&
+    return opencl_project_create(s->gpu, is_tile_wise, &s->project) && opencl_binning_create(s->gpu, &s->binning) &&
            opencl_blend_create(s->gpu, is_tile_wise, &s->blend) && opencl_loss_create(s->gpu, blend, &s->loss) &&
            opencl_adam_create(s->gpu, &s->adam) && opencl_rasterizer_create(s->gpu, blend, &s->rasterizer);
 }

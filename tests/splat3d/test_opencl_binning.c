@@ -46,7 +46,7 @@ static Binned bin(Gpu *gpu, const Gaussians *model, const Camera *camera) {
     OpenclBinning binning;
     DeviceGaussians device;
     Binned b;
-    assert_true(opencl_project_create(gpu, &project));
+    assert_true(opencl_project_create(gpu, gpu_info(gpu)->is_cpu, &project));
     assert_true(opencl_binning_create(gpu, &binning));
     assert_true(device_gaussians_create(gpu, "model", 0, model->sh_degree, &device));
     assert_true(device_gaussians_write(&device, model));

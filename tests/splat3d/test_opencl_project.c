@@ -29,6 +29,8 @@ typedef struct {
     float *depth;
 } Projected;
 
+static bool is_vectorised; // the shape under test
+
 static Projected project(Gpu *gpu, const Gaussians *model, const Camera *camera, const RenderSettings *settings) {
     const size_t n = (size_t)model->count;
     Projected p = {.screen = mem_alloc(n, sizeof(ScreenSplat)),
@@ -36,7 +38,7 @@ static Projected project(Gpu *gpu, const Gaussians *model, const Camera *camera,
                    .depth = mem_alloc(n, sizeof(float))};
     OpenclProject kernel;
     DeviceGaussians device;
-    assert_true(opencl_project_create(gpu, &kernel));
+    assert_true(opencl_project_create(gpu, is_vectorised, &kernel));
     assert_true(device_gaussians_create(gpu, "model", 0, model->sh_degree, &device));
     assert_true(device_gaussians_write(&device, model));
     assert_true(frame_record_make(camera, settings, model->count, model->sh_degree, &p.frame));
@@ -155,10 +157,24 @@ static void a_needle_keeps_its_width(void **state) {
     gaussians_destroy(&model);
 }
 
+static int cpu_shape(void **state) {
+    (void)state;
+    is_vectorised = true;
+    return 0;
+}
+
+static int gpu_shape(void **state) {
+    (void)state;
+    is_vectorised = false;
+    return 0;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(splats_on_the_screen_agree_with_the_reference),
-        cmocka_unit_test(a_needle_keeps_its_width),
+        cmocka_unit_test_setup(splats_on_the_screen_agree_with_the_reference, cpu_shape),
+        cmocka_unit_test_setup(splats_on_the_screen_agree_with_the_reference, gpu_shape),
+        cmocka_unit_test_setup(a_needle_keeps_its_width, cpu_shape),
+        cmocka_unit_test_setup(a_needle_keeps_its_width, gpu_shape),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
