@@ -13,7 +13,8 @@
 //
 //     start (tiles + 1), list_splat, list_slot, list_mask (pairs), screen (N), transmittance, last (tiles, 16, 16): of the forward pass
 //     d_rgb (3, rows, stride): d loss / d picture, zero in the padding
-//     records (P): at list_slot of each entry; entries behind the tile's last blended splat get zeros
+//     records (P): at list_slot of each entry that is not behind the tile's last blended splat
+//     mask_of_slot (P): of tile_masks.cl; set to 0, "there is no record", for the entries behind it
 //
 // One work-item: one tile (group 1 x 1), splats outside, blocks of their mask inside, the nine sums in registers.
 // Local memory: none; about 6 KB of private arrays. Reference: splat3d/reference_blend.c. Test: tests/splat3d/test_opencl_gradients.c.
@@ -139,8 +140,8 @@ static uint begun_blocks(const int *block_last, int index, int *next) {
 __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *start, __global const uint *list_splat,
                                  __global const uint *list_slot, __global const ushort *list_mask,
                                  __global const ScreenSplat *screen, __global const float *transmittance,
-                                 __global const int *last, __global const float *d_rgb,
-                                 __global PairGradient *records) {
+                                 __global const int *last, __global const float *d_rgb, __global PairGradient *records,
+                                 __global ushort *mask_of_slot) {
     const int tile_x = (int)get_global_id(0), tile_y = (int)get_global_id(1);
     if (tile_x >= frame.tiles_x || tile_y >= frame.tiles_y) return;
     const uint begin = start[tile_y * frame.tiles_x + tile_x];
@@ -149,8 +150,8 @@ __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *s
     int block_last[BLOCKS_PER_TILE];
     const int deepest = load_tile(&frame, tile_x, tile_y, transmittance, last, d_rgb, states, block_last);
 
-    const PairGradient nothing = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    for (int index = deepest; index < count; index++) records[list_slot[begin + index]] = nothing;
+    // What lies behind gets no record, and a mask that says so: with many splats most pairs are hidden.
+    for (int index = deepest; index < count; index++) mask_of_slot[list_slot[begin + index]] = 0;
 
     float16 x[BLOCKS_PER_ROW], y[BLOCKS_PER_ROW]; // pixel centres of each column and row of blocks
     for (int k = 0; k < BLOCKS_PER_ROW; k++) {

@@ -72,7 +72,7 @@ __kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void
 blend_backward_gpu(const FrameRecord frame, __global const uint *start, __global const uint *list_splat,
                    __global const uint *list_slot, __global const ushort *list_mask, __global const ScreenSplat *screen,
                    __global const float *transmittance, __global const int *last, __global const float *d_rgb,
-                   __global PairGradient *records) {
+                   __global PairGradient *records, __global ushort *mask_of_slot) {
     __local ScreenSplat staged[TILE_PIXELS];
     __local ushort mask[TILE_PIXELS];
     __local uint slot[TILE_PIXELS];
@@ -98,8 +98,7 @@ blend_backward_gpu(const FrameRecord frame, __global const uint *start, __global
     atomic_max(&deepest_shared, state.last);
     barrier(CLK_LOCAL_MEM_FENCE);
     const int deepest = deepest_shared;
-    const PairGradient nothing = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    for (int index = deepest + item; index < count; index += TILE_PIXELS) records[list_slot[begin + index]] = nothing;
+    for (int index = deepest + item; index < count; index += TILE_PIXELS) mask_of_slot[list_slot[begin + index]] = 0;
 
     for (int top = deepest; top > 0; top -= TILE_PIXELS) { // staged[i] is list entry top - 1 - i
         const int batch = min(top, TILE_PIXELS);

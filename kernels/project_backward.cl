@@ -64,7 +64,8 @@ static void add_statistics(int i, int end, Int visible, Real d_mean_ndc, __globa
 
 static Int is_in_view(int first, int end, __global const TileBox *box) {
     int in_view[LANES];
-    for (int lane = 0; lane < LANES; lane++) in_view[lane] = first + lane < end ? box[first + lane].x0 - box[first + lane].x1 : 0;
+    for (int lane = 0; lane < LANES; lane++)
+        in_view[lane] = first + lane < end ? box[first + lane].x0 - box[first + lane].x1 : 0;
     return vload16(0, in_view) < 0;
 }
 
@@ -170,8 +171,8 @@ static Gradient splat_backward(const FrameRecord *frame, const Sums *sum, Vec3 c
     const Real a = p->inv_var_u, b = p->inv_var_v, zero = (Real)(0.0f); // P, Q
     const Real d_x_px = a * sum->wu, d_y_px = p->shear * a * sum->wu + b * sum->wv;
     Gradient gradient;
-    Vec3 d_point = covariance_backward(frame, p, d_x_px, d_y_px, a * a * sum->wuu, a * b * sum->wuv, b * b * sum->wvv,
-                                       &gradient);
+    Vec3 d_point =
+        covariance_backward(frame, p, d_x_px, d_y_px, a * a * sum->wuu, a * b * sum->wuv, b * b * sum->wvv, &gradient);
     gradient.d_colour = vec3(zero, zero, zero);
     if (frame->is_depth)
         d_point.z += sum->r;

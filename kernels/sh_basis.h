@@ -62,8 +62,8 @@ static inline Vec3 sh_slope1(const Real *weight) {
 }
 
 static inline Vec3 sh_slope2(Vec3 d, const Real *weight) {
-    const Real c0 = SH_C2A * weight[0], c1 = -SH_C2A * weight[1], c2 = 2 * SH_C2B * weight[2],
-               c3 = -SH_C2A * weight[3], c4 = 2 * SH_C2C * weight[4];
+    const Real c0 = SH_C2A * weight[0], c1 = -SH_C2A * weight[1], c2 = 2 * SH_C2B * weight[2], c3 = -SH_C2A * weight[3],
+               c4 = 2 * SH_C2C * weight[4];
     return vec3(c0 * d.y - c2 * d.x + c3 * d.z + c4 * d.x, //
                 c0 * d.x + c1 * d.z - c2 * d.y - c4 * d.y, //
                 c1 * d.y + 2 * c2 * d.z + c3 * d.x);

@@ -92,7 +92,8 @@ static Vec3 sh_colour(int degree, const float16 *basis, int16 shown, int first, 
     rows[SH_BASIS] = (float16)(0.0f);
     transpose16(rows);
     for (int lane = 0; lane < LANES; lane++)
-        rows[lane] = is_shown[lane] ? sh_products(degree, rows[lane], (size_t)(first + lane), sh1, sh2, sh3) : (float16)(0.0f);
+        rows[lane] =
+            is_shown[lane] ? sh_products(degree, rows[lane], (size_t)(first + lane), sh1, sh2, sh3) : (float16)(0.0f);
     transpose16(rows);
     return vec3(rows[0] + rows[3] + rows[6] + rows[9] + rows[12], rows[1] + rows[4] + rows[7] + rows[10] + rows[13],
                 rows[2] + rows[5] + rows[8] + rows[11] + rows[14]);
@@ -121,9 +122,8 @@ static inline void store_6(float16 v, __global float *at) {
 
 // One splat: stores its gradients and returns the weights. b: its basis; d: its d_colour r g b r g b ...
 static inline float16 sh_splat_backward(int degree, float16 b, float16 d, bool is_dark, size_t i,
-                                        __global const float *sh1, __global const float *sh2,
-                                        __global const float *sh3, __global float *d_sh1, __global float *d_sh2,
-                                        __global float *d_sh3) {
+                                        __global const float *sh1, __global const float *sh2, __global const float *sh3,
+                                        __global float *d_sh1, __global float *d_sh2, __global float *d_sh3) {
     store_9(SPREAD_SH1(b) * d, d_sh1 + 9 * i);
     if (degree >= 2) store_15(SPREAD_SH2(b) * d, d_sh2 + 15 * i);
     if (degree >= 3) {
@@ -152,9 +152,9 @@ static void sh_colour_backward(int degree, const float16 *basis, Vec3 d_colour, 
     transpose16(rows);
     for (int lane = 0; lane < LANES; lane++) {
         const float r = red[lane], g = green[lane], b = blue[lane];
-        rows[lane] = sh_splat_backward(degree, rows[lane], (float16)(r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r),
-                                       r == 0 && g == 0 && b == 0, (size_t)(first + lane), sh1, sh2, sh3, d_sh1, d_sh2,
-                                       d_sh3);
+        rows[lane] =
+            sh_splat_backward(degree, rows[lane], (float16)(r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r),
+                              r == 0 && g == 0 && b == 0, (size_t)(first + lane), sh1, sh2, sh3, d_sh1, d_sh2, d_sh3);
     }
     transpose16(rows);
     for (int k = 0; k < SH_BASIS; k++) weight[k] = rows[k];

@@ -68,7 +68,7 @@ bool opencl_blend_backward(OpenclBlend *blend, const FrameRecord *frame, const O
                       gpu_buffer_arg(binning->start), gpu_buffer_arg(binning->list_splat),
                       gpu_buffer_arg(binning->list_slot), gpu_buffer_arg(binning->list_mask), gpu_buffer_arg(screen),
                       gpu_buffer_arg(blend->transmittance), gpu_buffer_arg(blend->last), gpu_buffer_arg(blend->d_rgb),
-                      gpu_buffer_arg(blend->records));
+                      gpu_buffer_arg(blend->records), gpu_buffer_arg(binning->mask));
 }
 
 size_t opencl_blend_place(int tiles_x, int x, int y) {

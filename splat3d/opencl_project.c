@@ -46,9 +46,8 @@ bool opencl_project_forward(OpenclProject *project, const FrameRecord *frame, co
         !gpu_buffer_reserve(project->box, room * sizeof(TileBox)) ||
         !gpu_buffer_reserve(project->depth, room * sizeof(float)))
         return false;
-    return gpu_launch(project->forward, splats(project, n),
-                      gpu_record_arg(frame, sizeof *frame), field_arg(model, FIELD_MEAN),
-                      field_arg(model, FIELD_LOG_SCALE), field_arg(model, FIELD_QUAT),
+    return gpu_launch(project->forward, splats(project, n), gpu_record_arg(frame, sizeof *frame),
+                      field_arg(model, FIELD_MEAN), field_arg(model, FIELD_LOG_SCALE), field_arg(model, FIELD_QUAT),
                       field_arg(model, FIELD_OPACITY_LOGIT), field_arg(model, FIELD_SH0), field_arg(model, FIELD_SH1),
                       field_arg(model, FIELD_SH2), field_arg(model, FIELD_SH3), gpu_buffer_arg(project->screen),
                       gpu_buffer_arg(project->box), gpu_buffer_arg(project->depth));
@@ -59,14 +58,14 @@ bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, c
                              GpuBuffer *seen) {
     const bool has_statistics = gradient_ndc && seen;
     return gpu_launch(
-        project->backward, splats(project, (size_t)frame->splat_count),
-        gpu_record_arg(frame, sizeof *frame), field_arg(model, FIELD_MEAN), field_arg(model, FIELD_LOG_SCALE),
-        field_arg(model, FIELD_QUAT), field_arg(model, FIELD_OPACITY_LOGIT), field_arg(model, FIELD_SH1),
-        field_arg(model, FIELD_SH2), field_arg(model, FIELD_SH3), gpu_buffer_arg(project->screen),
-        gpu_buffer_arg(project->box), gpu_buffer_arg(records.offset), gpu_buffer_arg(records.mask),
-        gpu_buffer_arg(records.records), field_arg(gradient, FIELD_MEAN), field_arg(gradient, FIELD_LOG_SCALE),
-        field_arg(gradient, FIELD_QUAT), field_arg(gradient, FIELD_OPACITY_LOGIT), field_arg(gradient, FIELD_SH0),
-        field_arg(gradient, FIELD_SH1), field_arg(gradient, FIELD_SH2), field_arg(gradient, FIELD_SH3),
-        gpu_int_arg(has_statistics), gpu_buffer_arg(has_statistics ? gradient_ndc : project->depth),
+        project->backward, splats(project, (size_t)frame->splat_count), gpu_record_arg(frame, sizeof *frame),
+        field_arg(model, FIELD_MEAN), field_arg(model, FIELD_LOG_SCALE), field_arg(model, FIELD_QUAT),
+        field_arg(model, FIELD_OPACITY_LOGIT), field_arg(model, FIELD_SH1), field_arg(model, FIELD_SH2),
+        field_arg(model, FIELD_SH3), gpu_buffer_arg(project->screen), gpu_buffer_arg(project->box),
+        gpu_buffer_arg(records.offset), gpu_buffer_arg(records.mask), gpu_buffer_arg(records.records),
+        field_arg(gradient, FIELD_MEAN), field_arg(gradient, FIELD_LOG_SCALE), field_arg(gradient, FIELD_QUAT),
+        field_arg(gradient, FIELD_OPACITY_LOGIT), field_arg(gradient, FIELD_SH0), field_arg(gradient, FIELD_SH1),
+        field_arg(gradient, FIELD_SH2), field_arg(gradient, FIELD_SH3), gpu_int_arg(has_statistics),
+        gpu_buffer_arg(has_statistics ? gradient_ndc : project->depth),
         gpu_buffer_arg(has_statistics ? seen : project->box));
 }

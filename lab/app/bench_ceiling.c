@@ -17,6 +17,7 @@ struct BenchCeiling {
     float *rgb, *transmittance;
     int32_t *last;
     PairGradient *records;
+    uint16_t *mask_of_slot; // 1: there may be a record
     size_t pixels, record_count;
 
     char *from, *to;               // copied between
@@ -36,6 +37,7 @@ void bench_ceiling_destroy(BenchCeiling *c) {
     mem_free(c->transmittance);
     mem_free(c->last);
     mem_free(c->records);
+    mem_free(c->mask_of_slot);
     mem_free(c->from);
     mem_free(c->to);
     mem_free(c);
@@ -57,6 +59,8 @@ static void make_room(BenchCeiling *c, const NativeBlend *blend, size_t slots) {
     }
     if (slots > c->record_count) {
         c->records = mem_resize(c->records, c->record_count, slots, sizeof *c->records);
+        c->mask_of_slot = mem_resize(c->mask_of_slot, c->record_count, slots, sizeof *c->mask_of_slot);
+        for (size_t i = 0; i < slots; i++) c->mask_of_slot[i] = 1;
         c->record_count = slots;
     }
 }
@@ -71,6 +75,7 @@ static bool open_native(BenchCeiling *c, NativeBlend *device, NativeBlend *nativ
     native->transmittance = c->transmittance;
     native->last = c->last;
     native->records = c->records;
+    native->mask_of_slot = c->mask_of_slot;
     return true;
 }
 
@@ -146,7 +151,10 @@ static Distance record_distance(const NativeBlend *a, const NativeBlend *b) {
     const uint32_t pairs = a->start[a->frame.tiles_x * a->frame.tiles_y];
     Distance d = {0};
     for (uint32_t i = 0; i < pairs; i++) {
-        const float *x = (const float *)&a->records[a->list_slot[i]], *y = (const float *)&b->records[b->list_slot[i]];
+        const PairGradient nothing = {0}; // what a pair without a record stands for
+        const uint32_t slot = a->list_slot[i];
+        const float *x = (const float *)(a->mask_of_slot[slot] ? &a->records[slot] : &nothing);
+        const float *y = (const float *)(b->mask_of_slot[slot] ? &b->records[slot] : &nothing);
         for (int k = 0; k < FLOATS; k++) distance_add(&d, x[k], y[k]);
     }
     return d;

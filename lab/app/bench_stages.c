@@ -16,7 +16,7 @@ const char *const BENCH_STAGE_NAMES[BENCH_STAGE_COUNT + 1] = {
 
 static const float DSSIM_WEIGHT = 0.2f;
 
-enum { MAPPED = 10 };
+enum { MAPPED = 11 };
 
 struct BenchStages {
     Gpu *gpu;
@@ -232,6 +232,7 @@ bool bench_stages_map(BenchStages *s, NativeBlend *blend) {
         .rgb = map(s, s->blend.rgb, &done),
         .d_rgb = map(s, s->blend.d_rgb, &done),
         .records = map(s, s->blend.records, &done),
+        .mask_of_slot = map(s, s->binning.mask, &done),
     };
     return done;
 }

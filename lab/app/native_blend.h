@@ -22,6 +22,7 @@ typedef struct {
     int32_t *last;
     const float *d_rgb;
     PairGradient *records;
+    uint16_t *mask_of_slot; // set to 0 backward for pairs that are hidden in all of their tile: they get no record
 } NativeBlend;
 
 // "AVX-512", "AVX2"; NULL where this processor has neither: then the two below must not be called.

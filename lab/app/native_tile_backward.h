@@ -99,7 +99,7 @@ static void backward_tile(const NativeBlend *blend, int tile) {
     uint32_t begun = 0;
     int next = deepest;
     for (int index = deepest; index < count; index++)
-        blend->records[blend->list_slot[begin + (uint32_t)index]] = (PairGradient){0};
+        blend->mask_of_slot[blend->list_slot[begin + (uint32_t)index]] = 0;
     for (int index = deepest - 1; index >= 0; index--) {
         const uint32_t entry = begin + (uint32_t)index;
         if (index < next) begun = begun_blocks(block_last, index, &next);
