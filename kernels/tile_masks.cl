@@ -3,7 +3,8 @@
 // Exact, and cheap: in a band of four pixel rows the ellipse's outline is widest at widest_dy (right) and -widest_dy (left), or at
 // the band's edge that is nearest to it; there
 //     dx = -shear dy +- sqrt((half_height^2 - dy^2) along_v / along_u)
-// so two square roots give the band's blocks. A tile has four bands, done at once as float4:
+// so two square roots give the band's blocks. A tile has four bands. A work-item does the bands of TILE_ROWS rows of tiles at once: of one
+// row on a GPU, of four (-D TILE_ROWS=4) on a CPU, where a float16 costs as much as a float4:
 //
 //          block columns 0..3         mask bit of a block = 4 * row + column
 //         +----+----+----+----+
@@ -22,39 +23,72 @@
 
 #include "extent.h"
 
+#ifndef TILE_ROWS
+#define TILE_ROWS 1
+#endif
+
+#if TILE_ROWS == 1
+typedef float4 Bands;
+typedef int4 IntBands;
+#define INT_OF(bands) convert_int4(bands)
+#define BAND_TOP_PX   ((float4)(0, 4, 8, 12))
+#define BIT_SHIFT     ((int4)(0, 4, 8, 12))
+#else
+typedef float16 Bands;
+typedef int16 IntBands;
+#define INT_OF(bands) convert_int16(bands)
+#define BAND_TOP_PX   ((float16)(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60))
+#define BIT_SHIFT     ((int16)(0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12))
+#endif
+
 #define CENTRE_FIRST 0.5f // px from a block's edge to its first pixel's centre
 #define CENTRE_LAST  (BLOCK_SIZE - 0.5f)
 #define BLOCKS       (TILE_SIZE / BLOCK_SIZE)
 
-// Block columns [*first, *end) that the ellipse covers in four bands of a tile row; top: y of the tile's upper edge.
-static void band_columns(ScreenSplat splat, float top, int columns, int4 *first, int4 *end) {
+// Block columns [*first, *end) that the ellipse covers in the bands of TILE_ROWS rows of tiles; top: y of their upper edge.
+static void band_columns(ScreenSplat splat, float top, int columns, IntBands *first, IntBands *end) {
     const float margin_x = EXTENT_MARGIN_PX(splat.x, splat.half_width);
     const float margin_y = EXTENT_MARGIN_PX(splat.y, splat.half_height);
-    const float4 band = (float4)(0, 4, 8, 12) + (top - splat.y);
-    const float4 limit = (float4)(splat.half_height);
-    const float4 from = max(band + (CENTRE_FIRST - margin_y), -limit);
-    const float4 to = min(band + (CENTRE_LAST + margin_y), limit);
-    const float4 dy_right = min(max((float4)(splat.widest_dy), from), to);
-    const float4 dy_left = min(max((float4)(-splat.widest_dy), from), to);
+    const Bands zero = (Bands)(0.0f), last = (Bands)((float)columns);
+    const Bands band = BAND_TOP_PX + (top - splat.y);
+    const Bands limit = (Bands)(splat.half_height);
+    const Bands from = max(band + (CENTRE_FIRST - margin_y), -limit);
+    const Bands to = min(band + (CENTRE_LAST + margin_y), limit);
+    const Bands dy_right = min(max((Bands)(splat.widest_dy), from), to);
+    const Bands dy_left = min(max((Bands)(-splat.widest_dy), from), to);
     const float aspect = splat.along_v / splat.along_u;
-    const float4 right = sqrt(max(limit * limit - dy_right * dy_right, 0.0f) * aspect) - splat.shear * dy_right;
-    const float4 left = -sqrt(max(limit * limit - dy_left * dy_left, 0.0f) * aspect) - splat.shear * dy_left;
+    const Bands right = sqrt(max(limit * limit - dy_right * dy_right, zero) * aspect) - splat.shear * dy_right;
+    const Bands left = -sqrt(max(limit * limit - dy_left * dy_left, zero) * aspect) - splat.shear * dy_left;
 
     // Rounded up and down by truncating positive numbers: ceil() and floor() are slow calls on some devices.
-    const float4 first_block = (splat.x + left - (CENTRE_LAST + margin_x)) / BLOCK_SIZE;
-    const float4 end_block = (splat.x + right - (CENTRE_FIRST - margin_x)) / BLOCK_SIZE + 1.0f;
-    *first = columns - convert_int4(clamp(columns - first_block, 0.0f, (float)columns));
-    *end = convert_int4(clamp(end_block, 0.0f, (float)columns));
-    *end = from > to ? (int4)(0) : *end;
+    const Bands first_block = (splat.x + left - (CENTRE_LAST + margin_x)) / BLOCK_SIZE;
+    const Bands end_block = (splat.x + right - (CENTRE_FIRST - margin_x)) / BLOCK_SIZE + 1.0f;
+    *first = columns - INT_OF(min(max(columns - first_block, zero), last));
+    *end = INT_OF(min(max(end_block, zero), last));
+    *end = from > to ? (IntBands)(0) : *end;
 }
 
 // The bits from low to high - 1 of four, for bounds anywhere. (Bounds of clamp() as vectors: Oclgrind takes scalar ones for the first
 // element only.)
-static int4 nibbles(int4 low, int4 high) {
-    const int4 one = (int4)(1);
-    const int4 below_high = (one << clamp(high, (int4)(0), (int4)(BLOCKS))) - 1,
-               below_low = (one << clamp(low, (int4)(0), (int4)(BLOCKS))) - 1;
+static IntBands nibbles(IntBands low, IntBands high) {
+    const IntBands one = (IntBands)(1), zero = (IntBands)(0), all = (IntBands)(BLOCKS);
+    const IntBands below_high = (one << clamp(high, zero, all)) - 1, below_low = (one << clamp(low, zero, all)) - 1;
     return below_high & ~below_low;
+}
+
+// The masks of up to TILE_ROWS tiles, one below the other, from their nibbles.
+static void store_masks(IntBands bits, int rows, int row_length, __global ushort *mask) {
+    bits <<= BIT_SHIFT;
+#if TILE_ROWS == 1
+    mask[0] = (ushort)(bits.x | bits.y | bits.z | bits.w);
+#else
+    bits |= bits.s1032547698badcfe;
+    bits |= bits.s23016745ab89efcd;
+    mask[0] = (ushort)bits.s0;
+    if (rows > 1) mask[row_length] = (ushort)bits.s4;
+    if (rows > 2) mask[2 * row_length] = (ushort)bits.s8;
+    if (rows > 3) mask[3 * row_length] = (ushort)bits.sc;
+#endif
 }
 
 __kernel void tile_masks(const FrameRecord frame, __global const ScreenSplat *screen, __global const TileBox *box,
@@ -64,13 +98,13 @@ __kernel void tile_masks(const FrameRecord frame, __global const ScreenSplat *sc
     const TileBox tiles = box[i];
     if (tiles.x0 >= tiles.x1) return;
     const ScreenSplat splat = screen[i];
+    const int row_length = tiles.x1 - tiles.x0;
     __global ushort *out = mask + offset[i];
-    for (int y = tiles.y0; y < tiles.y1; y++) {
-        int4 first, end;
+    for (int y = tiles.y0; y < tiles.y1; y += TILE_ROWS, out += TILE_ROWS * row_length) {
+        IntBands first, end;
         band_columns(splat, (float)(y * TILE_SIZE), frame.tiles_x * BLOCKS, &first, &end);
-        for (int x = tiles.x0; x < tiles.x1; x++) {
-            const int4 bits = nibbles(first - x * BLOCKS, end - x * BLOCKS);
-            *out++ = (ushort)(bits.x | bits.y << 4 | bits.z << 8 | bits.w << 12);
-        }
+        for (int x = 0; x < row_length; x++)
+            store_masks(nibbles(first - (tiles.x0 + x) * BLOCKS, end - (tiles.x0 + x) * BLOCKS), tiles.y1 - y,
+                        row_length, out + x);
     }
 }

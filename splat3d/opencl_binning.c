@@ -15,7 +15,8 @@ enum {
 
 bool opencl_binning_create(Gpu *gpu, OpenclBinning *binning) {
     *binning = (OpenclBinning){.gpu = gpu};
-    if (gpu_program_create(gpu, "tile_masks.cl", "", &binning->masks_program) &&
+    const char *tile_rows = gpu_info(gpu)->is_cpu ? "-D TILE_ROWS=4" : "";
+    if (gpu_program_create(gpu, "tile_masks.cl", tile_rows, &binning->masks_program) &&
         gpu_kernel(binning->masks_program, "tile_masks", &binning->masks) &&
         gpu_program_create(gpu, "tile_sort.cl", "", &binning->sort_program) &&
         gpu_kernel(binning->sort_program, "tile_sort_count", &binning->count) &&
