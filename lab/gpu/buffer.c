@@ -24,6 +24,7 @@ static bool buffer_allocate(GpuBuffer *buffer, size_t capacity) {
     buffer->capacity = buffer->bytes = 0;
     if (capacity <= buffer->gpu->info.max_alloc_bytes)
         buffer->memory = clCreateBuffer(buffer->gpu->context, CL_MEM_READ_WRITE, capacity, NULL, &code);
+    buffer->gpu->counts.allocations++;
     if (code != CL_SUCCESS) return buffer_fail_size(buffer, capacity, code);
     buffer->capacity = buffer->bytes = capacity;
     return gpu_buffer_zero(buffer);
@@ -72,6 +73,7 @@ bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer) {
     };
     assert(!buffer->mapped);
     cl_int code;
+    buffer->gpu->counts.waits++;
     *pointer = clEnqueueMapBuffer(buffer->gpu->queue, buffer->memory, CL_TRUE, FLAGS[access], 0, buffer->bytes, 0, NULL,
                                   NULL, &code);
     if (!opencl_ok(code, "clEnqueueMapBuffer", buffer->name, buffer->gpu)) return false;
@@ -93,6 +95,7 @@ bool gpu_buffer_write(GpuBuffer *buffer, const void *data, size_t bytes) {
     // A part only: the rest has to stay as it is.
     if (!gpu_buffer_map(buffer, bytes == buffer->bytes ? GPU_WRITE : GPU_READ_WRITE, &target)) return false;
     memcpy(target, data, bytes);
+    buffer->gpu->counts.copied_bytes += bytes;
     return gpu_buffer_unmap(buffer);
 }
 
@@ -101,6 +104,7 @@ bool gpu_buffer_read(GpuBuffer *buffer, void *data, size_t bytes) {
     void *source;
     if (!gpu_buffer_map(buffer, GPU_READ, &source)) return false;
     memcpy(data, source, bytes);
+    buffer->gpu->counts.copied_bytes += bytes;
     return gpu_buffer_unmap(buffer);
 }
 

@@ -120,6 +120,16 @@ bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int 
 
 bool gpu_finish(Gpu *gpu); // waits until all commands are done
 
+// What was asked of the driver since the device was opened.
+typedef struct {
+    long builds;         // programs
+    long allocations;    // of buffers' memory
+    long launches;       // kernels enqueued
+    long waits;          // maps and finishes: each empties the queue
+    size_t copied_bytes; // by gpu_buffer_write() and gpu_buffer_read(); a map on a CPU device copies nothing
+} GpuCounts;
+GpuCounts gpu_counts(const Gpu *gpu);
+
 // ---- time per stage ----
 // What is launched, mapped and computed on the host from here on counts for this stage (a literal: "project"); NULL: none.
 void gpu_stage(Gpu *gpu, const char *stage);

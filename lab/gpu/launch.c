@@ -47,12 +47,16 @@ bool gpu_launch_args(GpuKernel *kernel, GpuRange range, const GpuArg *args, int 
     size_t local[2] = {range.group_width, range.group_height};
     size_t global[2] = {round_up(range.width, local[0]), range.height ? round_up(range.height, local[1]) : 0};
     if (!global[0]) return true; // nothing to do
+    gpu->counts.launches++;
     cl_event *event = stage_next_event(gpu);
     cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, NULL, global, local, 0, NULL, event);
     return opencl_ok(code, "clEnqueueNDRangeKernel", kernel->name, gpu);
 }
 
+GpuCounts gpu_counts(const Gpu *gpu) { return gpu->counts; }
+
 bool gpu_finish(Gpu *gpu) {
+    gpu->counts.waits++;
     if (!opencl_ok(clFinish(gpu->queue), "clFinish", "the queue", gpu)) return false;
     stage_collect(gpu);
     return true;

@@ -29,6 +29,7 @@ struct Gpu {
     cl_command_queue queue; // in order, with profiling
     bool said_compiling;    // the person has been told that kernels are being compiled
     Stages stages;
+    GpuCounts counts;
 };
 
 struct GpuBuffer {

@@ -49,6 +49,7 @@ static bool program_build(GpuProgram *program, const char *source, const char *o
     program->program = clCreateProgramWithSource(gpu->context, 1, &source, NULL, &code);
     if (!opencl_ok(code, "clCreateProgramWithSource", program->file, gpu)) return false;
     double began_s = clock_seconds();
+    gpu->counts.builds++;
     code = build_quietly(program->program, gpu->device, options);
     if (code != CL_SUCCESS) return program_fail_build(program, code);
     if (!gpu->said_compiling && clock_seconds() - began_s > SLOW_BUILD_S) {

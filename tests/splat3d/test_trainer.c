@@ -309,6 +309,30 @@ static void density_control_that_would_leave_nothing_stops_with_the_model_it_had
     dataset_destroy(&d);
 }
 
+static void a_warm_step_allocates_builds_and_copies_nothing(void **state) {
+    (void)state;
+    enum { WARM_UP = 12, STEPS = 6, NOTE_BYTES = 4 }; // Adam's word of what was not finite
+    Dataset dataset = make_dataset();
+    TrainOptions options = small_options(WARM_UP + STEPS);
+    Trainer *trainer;
+    StepReport report;
+    check(trainer_create(gpu, BLEND_AUTO, &options, &dataset, &trainer));
+    for (int i = 0; i < WARM_UP; i++) check(trainer_step(trainer, &report));
+    const GpuCounts before = gpu_counts(gpu);
+    for (int i = 0; i < STEPS; i++) check(trainer_step(trainer, &report));
+    const GpuCounts after = gpu_counts(gpu);
+    print_message("a step: %ld launches, %ld waits\n", (after.launches - before.launches) / STEPS,
+                  (after.waits - before.waits) / STEPS);
+    assert_true(before.allocations > 0 && before.builds > 0);
+    assert_int_equal(after.allocations, before.allocations);
+    assert_int_equal(after.builds, before.builds);
+    assert_int_equal(after.copied_bytes - before.copied_bytes, STEPS * NOTE_BYTES);
+    assert_true(after.launches - before.launches <= 20 * STEPS);
+    assert_true(after.waits - before.waits <= 7 * STEPS);
+    trainer_destroy(trainer);
+    dataset_destroy(&dataset);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_steps_lose_what_the_reference_loses),
@@ -316,6 +340,7 @@ int main(void) {
         cmocka_unit_test(an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one),
         cmocka_unit_test(a_number_that_is_not_finite_stops_training_by_name),
         cmocka_unit_test(a_state_of_another_scene_is_refused),
+        cmocka_unit_test(a_warm_step_allocates_builds_and_copies_nothing),
         cmocka_unit_test(density_control_that_would_leave_nothing_stops_with_the_model_it_had),
     };
     return cmocka_run_group_tests_name("trainer", tests, open_device, close_device);
