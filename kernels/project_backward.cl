@@ -19,7 +19,7 @@
 //         above frame.sh_degree are left alone
 //     gradient_ndc, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
 //
-// One work-item: LANES Gaussians (lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
+// One work-item: LANES Gaussians (splat_lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
 // Reference: reference_project_backward(). Test: tests/splat3d/test_opencl_gradients.c.
 #include "shared.h"
 

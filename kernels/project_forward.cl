@@ -13,7 +13,7 @@
 //     box (N): its tiles, all zero when it is not visible
 //     depth (N): camera z, world units; without meaning when it is not visible
 //
-// One work-item: LANES Gaussians (lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
+// One work-item: LANES Gaussians (splat_lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
 // Reference: reference_project_forward(). Test: tests/splat3d/test_opencl_project.c.
 #include "shared.h"
 

@@ -13,7 +13,7 @@
 #ifndef SPLATLAB_KERNELS_PROJECTION_H
 #define SPLATLAB_KERNELS_PROJECTION_H
 
-#include "lanes.h"
+#include "splat_lanes.h"
 
 #define LOG2_E          1.44269504f
 #define QUAT_LENGTH_MIN 1e-18f // a shorter quaternion has no direction: such a splat is not drawn

@@ -7,7 +7,7 @@
 #ifndef SPLATLAB_KERNELS_SH_BASIS_H
 #define SPLATLAB_KERNELS_SH_BASIS_H
 
-#include "lanes.h"
+#include "splat_lanes.h"
 
 #define SH_C0  0.282094792f // 1/2 sqrt(1 / pi)
 #define SH_C1  0.488602512f // 1/2 sqrt(3 / pi)

@@ -11,7 +11,7 @@
 #ifndef SPLATLAB_KERNELS_SH_FIELD_H
 #define SPLATLAB_KERNELS_SH_FIELD_H
 
-#include "lanes.h"
+#include "splat_lanes.h"
 
 #define SH_BASIS (SH_COEFFICIENTS_MAX - 1) // functions of degrees 1 to 3
 

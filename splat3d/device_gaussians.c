@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <stdio.h>
 
-enum { LANES_MAX = 16 }; // splats that one work-item of a kernel takes (kernels/lanes.h)
+enum { LANES_MAX = 16 }; // splats that one work-item of a kernel takes (kernels/splat_lanes.h)
 
 static size_t field_bytes(int id, int count) {
     return (size_t)count * (size_t)GAUSSIAN_FIELDS[id].width * sizeof(float);

@@ -1,4 +1,4 @@
-// lanes.h - numbers of LANES splats at once: what lets one source be a CPU's kernel and a GPU's (OpenCL C).
+// splat_lanes.h - numbers of LANES splats at once: what lets one source be a CPU's kernel and a GPU's (OpenCL C).
 //
 // A GPU runs one splat in one work-item (LANES 1, the default): Real is float. A CPU's compiler does not vectorise such kernels
 // over work-items, so there a work-item takes sixteen splats (-D LANES=16): Real is float16, one splat a lane, and branches become masks.
@@ -7,8 +7,8 @@
 //     memory  x0 y0 z0 x1 y1 z1 ... x15 y15 z15      <->      x: x0 x1 ... x15    y: y0 y1 ... y15    z: z0 z1 ... z15
 //
 // Whole groups of lanes are read and written: buffers have room for the last one (splat3d/device_gaussians.h).
-#ifndef SPLATLAB_KERNELS_LANES_H
-#define SPLATLAB_KERNELS_LANES_H
+#ifndef SPLATLAB_KERNELS_SPLAT_LANES_H
+#define SPLATLAB_KERNELS_SPLAT_LANES_H
 
 #ifndef LANES
 #define LANES 1
