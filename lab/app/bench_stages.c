@@ -148,6 +148,16 @@ static bool enqueue(BenchStages *s, BenchStage stage) {
 
 bool bench_stages_run(BenchStages *s, BenchStage stage) { return enqueue(s, stage) && gpu_finish(s->gpu); }
 
+// Pairs that are not hidden in all of their tile: those that project_backward reads a record of. 0 on failure.
+static size_t record_count(const BenchStages *s) {
+    void *mapped;
+    size_t records = 0;
+    if (!gpu_buffer_map(s->binning.mask, GPU_READ, &mapped)) return 0;
+    const uint16_t *mask = mapped;
+    for (long slot = 0; slot < s->binning.slots; slot++) records += mask[slot] != 0;
+    return gpu_buffer_unmap(s->binning.mask) ? records : 0;
+}
+
 size_t bench_stages_bytes(const BenchStages *s, BenchStage stage) {
     const size_t n = (size_t)s->model.count,
                  learned = sizeof(float) * (size_t)gaussians_floats_per_splat(s->model.sh_degree);
@@ -159,7 +169,7 @@ size_t bench_stages_bytes(const BenchStages *s, BenchStage stage) {
     case BENCH_LOSS: // picture, photograph, gradient
         return pixels * (3 * sizeof(float) + 4 + 3 * sizeof(float));
     case BENCH_PROJECT_BACKWARD:
-        return n * (2 * learned + screen + sizeof(int)) + (size_t)s->binning.pairs * sizeof(PairGradient) +
+        return n * (2 * learned + screen + sizeof(int)) + record_count(s) * sizeof(PairGradient) +
                (size_t)s->binning.slots * sizeof(uint16_t);
     case BENCH_ADAM:
         return 7 * n * learned;
