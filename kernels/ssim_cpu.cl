@@ -18,7 +18,7 @@
 //     sums (work-items, SSIM_SUMS): of the work-item's own pixels
 //     d_picture (3, rows, stride): written everywhere, 0 right of width and below height
 //
-// One work-item: one band of one channel; item band * 3 + channel. Local memory: none; 70 KB of private arrays.
+// One work-item: one band of one channel; item band * 3 + channel. Local memory: none; 100 KB of private arrays.
 // Reference: splat2d/loss.c. Test: tests/splat3d/test_opencl_loss.c.
 #include "ssim_formula.h"
 #include "ssim_row.h"
