@@ -16,7 +16,8 @@ typedef struct {
     GpuBuffer *seen;         // (N) ints: how many views saw it
 } DensityStatistics;
 
-typedef enum { BLEND_AUTO, BLEND_CPU, BLEND_GPU } BlendKernels; // AUTO: by the device's type
+// The shape of the kernels that have two: blend, projection, loss. AUTO: by the device's type.
+typedef enum { BLEND_AUTO, BLEND_CPU, BLEND_GPU } BlendKernels;
 
 typedef struct OpenclRasterizer OpenclRasterizer;
 
