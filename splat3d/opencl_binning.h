@@ -24,8 +24,7 @@ typedef struct {
     GpuBuffer *order;  // (V) uints: splats, nearest first, equal depths by index
     GpuBuffer *offset; // (N) uints: a splat's first slot
     GpuBuffer
-        *mask; // (P) ushorts: the 4x4 blocks that the ellipse reaches, bit 4 row + column; the backward blend sets
-               // those of pairs that are hidden in all of their tile to 0
+        *mask; // (P) ushorts: blocks that the ellipse reaches, bit 4 row + column; 0 for hidden pairs after backward
     GpuBuffer *counts; // (chunks, tiles) uints, scratch of the counting sort
 
     // The lists of all tiles one after the other, tile by tile in rows.
