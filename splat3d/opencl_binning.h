@@ -23,7 +23,7 @@ typedef struct {
     long pairs;        // of them, those that the ellipse reaches
     GpuBuffer *order;  // (V) uints: splats, nearest first, equal depths by index
     GpuBuffer *offset; // (N) uints: a splat's first slot
-    GpuBuffer *mask;   // (P) ushorts: the 4x4 blocks that the ellipse reaches, bit 4 row + column
+    GpuBuffer *mask;   // (P) ushorts: blocks that the ellipse reaches, bit 4 row + column; backward: 0 for hidden pairs
     GpuBuffer *counts; // (chunks, tiles) uints, scratch of the counting sort
 
     // The lists of all tiles one after the other, tile by tile in rows.
