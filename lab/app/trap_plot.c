@@ -32,7 +32,8 @@ void trap_plot(const TrapPage *page, GuiRect place) {
         gui_draw_line(box.x, y, box.x + box.width, y, level == 0 ? INK_QUIET : LINE, level == 0 ? 1.5 : 1);
         gui_draw_text(GUI_SMALL, box.x - 1.6 * em, y - 0.45 * em, INK_QUIET, "%d", level);
     }
-    gui_draw_text(GUI_SMALL, box.x + 0.5 * em, zero + 0.3 * em, BAD, "indefinite");
+    double label = gui_text_width(GUI_SMALL, "indefinite") + 0.5 * em; // on the right, where no walk crosses the line
+    gui_draw_text(GUI_SMALL, box.x + box.width - label, zero + 0.3 * em, BAD, "indefinite");
     draw_walk(box, &page->trap.walks[PSD_FACTORED], steps, GOOD);
     draw_walk(box, &page->trap.walks[PSD_RAW], steps, ACCENT_WARM);
     gui_draw_text(GUI_SMALL, box.x, box.y + box.height + 0.4 * em, INK_QUIET, "0");
