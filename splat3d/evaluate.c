@@ -16,7 +16,7 @@ const char *const EVALUATION_PROTOCOL =
     "with "
     "an 11x11 Gaussian window, sigma 1.5, zero padded, per channel; means are over views";
 
-enum { ERROR_GAIN = 4, SHEET_GAP_PX = 4, SCORED_AT_ONCE_MAX = 16 };
+enum { ERROR_GAIN = 4, SHEET_GAP_PX = 4, SCORED_AT_ONCE_MAX = 4 };
 
 // Indices of the views to look at: those held out, or all when there is none. Owned by the caller.
 static int *list_views(const Dataset *dataset, int *count) {
@@ -104,11 +104,17 @@ static bool score_one(void *context, int index) {
     return true;
 }
 
+int evaluate_views_at_once(const Dataset *dataset) {
+    int held_out = dataset_held_out_count(dataset), scored = held_out ? held_out : dataset->view_count;
+    int threads = parallel_threads(), most = threads < SCORED_AT_ONCE_MAX ? threads : SCORED_AT_ONCE_MAX;
+    return scored < most ? scored : most;
+}
+
 // The next views from indices (count) on, as many as there are threads.
 static bool score_batch(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
                         const RenderSettings *settings, const int *indices, int count, Evaluation *evaluation) {
     Batch batch = {.dataset = dataset, .background = settings->background};
-    int threads = parallel_threads(), most = threads < SCORED_AT_ONCE_MAX ? threads : SCORED_AT_ONCE_MAX;
+    int most = evaluate_views_at_once(dataset);
     bool good = true;
     while (good && batch.count < most && batch.count < count) {
         batch.views[batch.count] = &dataset->views[indices[batch.count]];

@@ -22,6 +22,9 @@ typedef struct {
 // settings->background. show_progress: draw the line.
 bool evaluate_model(Rasterizer *rasterizer, const Gaussians *model, const Dataset *dataset,
                     const RenderSettings *settings, bool show_progress, Evaluation *evaluation);
+// How many views it reads and compares at the same time, one a thread; and the memory for one pixel of one of them.
+int evaluate_views_at_once(const Dataset *dataset);
+enum { EVALUATE_BYTES_PER_PIXEL = 8 * 8 + 3 * 3 * 4 + 4 }; // SSIM's planes; photograph, render, rounded; bytes
 void evaluation_destroy(Evaluation *evaluation);
 
 extern const char *const EVALUATION_PROTOCOL; // one sentence
