@@ -72,3 +72,18 @@ void page_paragraph(const Page *page, const char *label, PageColour colour, cons
     if (colour != PAGE_PLAIN) page_colour(page, PAGE_PLAIN);
     free(text);
 }
+
+// Headings, code, tables and lists keep their lines.
+static bool is_prose(const char *line) { return *line && !strchr(" #|-\n", *line); }
+
+void page_markdown(const Page *page, const char *text) {
+    while (*text) {
+        size_t length = strcspn(text, "\n");
+        if (is_prose(text)) // and what follows on
+            while (text[length] && is_prose(text + length + 1)) length += 1 + strcspn(text + length + 1, "\n");
+        char *part = strndup(text, length);
+        page_wrap(page, 0, 0, part);
+        free(part);
+        text += length + (text[length] == '\n');
+    }
+}
