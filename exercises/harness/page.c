@@ -36,21 +36,24 @@ static int width_of(const char *text, size_t bytes) {
 }
 
 void page_wrap(const Page *page, int column, int indent, const char *text) {
+    int blanks = 0; // before the next word; none are left at the end of a line
     bool is_first = true;
     while (*text) {
         size_t length = strcspn(text, " \n");
         int width = width_of(text, length);
-        if (!is_first && column + 1 + width > page->columns) {
+        if (length > 0 && !is_first && column + blanks + width > page->columns) {
             fprintf(page->out, "\n%*s", indent, "");
             column = indent;
-        } else if (!is_first) {
-            fputc(' ', page->out);
-            column++;
+            blanks = 0;
         }
-        fwrite(text, 1, length, page->out);
-        column += width;
-        is_first = false;
-        text += length + (text[length] != 0);
+        if (length > 0) {
+            fprintf(page->out, "%*s%.*s", blanks, "", (int)length, text);
+            column += blanks + width;
+            blanks = 0;
+            is_first = false;
+        }
+        text += length;
+        if (*text) blanks++, text++;
     }
     fputc('\n', page->out);
 }
