@@ -36,21 +36,24 @@ static int width_of(const char *text, size_t bytes) {
 }
 
 void page_wrap(const Page *page, int column, int indent, const char *text) {
+    int blanks = 0; // before the next word; none are left at the end of a line
     bool is_first = true;
     while (*text) {
         size_t length = strcspn(text, " \n");
         int width = width_of(text, length);
-        if (!is_first && column + 1 + width > page->columns) {
+        if (length > 0 && !is_first && column + blanks + width > page->columns) {
             fprintf(page->out, "\n%*s", indent, "");
             column = indent;
-        } else if (!is_first) {
-            fputc(' ', page->out);
-            column++;
+            blanks = 0;
         }
-        fwrite(text, 1, length, page->out);
-        column += width;
-        is_first = false;
-        text += length + (text[length] != 0);
+        if (length > 0) {
+            fprintf(page->out, "%*s%.*s", blanks, "", (int)length, text);
+            column += blanks + width;
+            blanks = 0;
+            is_first = false;
+        }
+        text += length;
+        if (*text) blanks++, text++;
     }
     fputc('\n', page->out);
 }
@@ -71,4 +74,19 @@ void page_paragraph(const Page *page, const char *label, PageColour colour, cons
     page_wrap(page, PAGE_LABEL, PAGE_LABEL, text ? text : "");
     if (colour != PAGE_PLAIN) page_colour(page, PAGE_PLAIN);
     free(text);
+}
+
+// Headings, code, tables and lists keep their lines.
+static bool is_prose(const char *line) { return *line && !strchr(" #|-\n", *line); }
+
+void page_markdown(const Page *page, const char *text) {
+    while (*text) {
+        size_t length = strcspn(text, "\n");
+        if (is_prose(text)) // and what follows on
+            while (text[length] && is_prose(text + length + 1)) length += 1 + strcspn(text + length + 1, "\n");
+        char *part = strndup(text, length);
+        page_wrap(page, 0, 0, part);
+        free(part);
+        text += length + (text[length] == '\n');
+    }
 }

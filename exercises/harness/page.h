@@ -28,4 +28,7 @@ void page_paragraph(const Page *page, const char *label, PageColour colour, cons
 // The same, with further lines indented by that much, beginning in the column where the line is now.
 void page_wrap(const Page *page, int column, int indent, const char *text);
 
+// A page of Markdown as it is, with its paragraphs broken anew: lines that follow each other are one.
+void page_markdown(const Page *page, const char *text);
+
 #endif

@@ -18,7 +18,7 @@ static void print_row(const Page *page, const char *label, const double *values,
         if (number_is_unwritten(values[i]))
             fprintf(page->out, "%*s", NUMBER_WIDTH, "(unwritten)");
         else
-            fprintf(page->out, "%*.6g", NUMBER_WIDTH, values[i]);
+            fprintf(page->out, "%*.6g", NUMBER_WIDTH, values[i] + 0.0); // no -0
     fputc('\n', page->out);
 }
 

@@ -3,7 +3,6 @@
 
 #include "exercises/harness/wire.h"
 #include "exercises/harness/worker_process.h"
-#include "lab/base/clock.h"
 #include "lab/base/mem.h"
 #include "lab/io/file.h"
 
@@ -253,16 +252,16 @@ static WireRequest make_request(Subject *s, const char *function, const Arg *arg
 static Heard wake(Subject *s) {
     WireAnswer ready;
     if (s->is_awake) return HEARD;
-    Heard heard = worker_process_receive(&s->worker, &ready, sizeof ready, clock_seconds() + WORKER_WAKE_MS / 1000.0);
+    worker_process_grant(&s->worker, WORKER_WAKE_MS / 1000.0);
+    Heard heard = worker_process_receive(&s->worker, &ready, sizeof ready);
     s->is_awake = heard == HEARD;
     return heard;
 }
 
-static Heard exchange(Subject *s, const WireRequest *request, size_t in, WireAnswer *head, double deadline_s) {
-    Heard heard = worker_process_send(&s->worker, request, sizeof *request, deadline_s);
-    if (heard == HEARD) heard = worker_process_send(&s->worker, s->numbers, in * sizeof(double), deadline_s);
-    if (heard == HEARD || heard == HEARD_END)
-        heard = worker_process_receive(&s->worker, head, sizeof *head, deadline_s);
+static Heard exchange(Subject *s, const WireRequest *request, size_t in, WireAnswer *head) {
+    Heard heard = worker_process_send(&s->worker, request, sizeof *request);
+    if (heard == HEARD) heard = worker_process_send(&s->worker, s->numbers, in * sizeof(double));
+    if (heard == HEARD || heard == HEARD_END) heard = worker_process_receive(&s->worker, head, sizeof *head);
     return heard;
 }
 
@@ -277,8 +276,8 @@ bool subject_call_sets(Subject *s, const char *function, const Arg *args, int co
 
     WireAnswer head;
     Heard heard = wake(s);
-    double deadline_s = clock_seconds() + limit_s(s);
-    if (heard == HEARD) heard = exchange(s, &request, in, &head, deadline_s);
+    worker_process_grant(&s->worker, limit_s(s));
+    if (heard == HEARD) heard = exchange(s, &request, in, &head);
     if (heard != HEARD) return say_silence(s, function, heard);
     if (head.ticket != request.ticket) {
         stop_worker(s);
@@ -289,7 +288,7 @@ bool subject_call_sets(Subject *s, const char *function, const Arg *args, int co
         if (head.outcome == ANSWER_CRASHED) stop_worker(s);
         return false;
     }
-    heard = worker_process_receive(&s->worker, s->numbers, out * sizeof(double), deadline_s);
+    heard = worker_process_receive(&s->worker, s->numbers, out * sizeof(double));
     if (heard != HEARD) return say_silence(s, function, heard);
     copy_numbers(s, args, count, sets, true);
     return true;

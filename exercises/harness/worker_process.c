@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -15,6 +16,7 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 extern char **environ;
@@ -127,10 +129,33 @@ int worker_process_stop(WorkerProcess *worker) {
     return status;
 }
 
+static const double HARD_FACTOR = 3, RETRY_S = 0.1;
+
+// Processor time of the worker, all its threads; endless where it cannot be asked for.
+static double cpu_seconds(const WorkerProcess *worker) {
+    clockid_t clock;
+    struct timespec used;
+    if (clock_getcpuclockid(worker->pid, &clock) != 0 || clock_gettime(clock, &used) != 0) return INFINITY;
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
+}
+
+void worker_process_grant(WorkerProcess *worker, double seconds) {
+    worker->until_s = clock_seconds() + seconds;
+    worker->hard_until_s = worker->until_s + (HARD_FACTOR - 1) * seconds;
+    worker->cpu_until_s = cpu_seconds(worker) + seconds;
+}
+
+// Seconds to wait before the next look; 0: its time is over.
+static double seconds_left(const WorkerProcess *worker) {
+    double now_s = clock_seconds();
+    if (now_s < worker->until_s) return worker->until_s - now_s;
+    return now_s < worker->hard_until_s && cpu_seconds(worker) < worker->cpu_until_s ? RETRY_S : 0;
+}
+
 // Waits until the socket is ready for `events`, or something is wrong.
-static Heard wait_for(WorkerProcess *worker, short events, double deadline_s) {
+static Heard wait_for(WorkerProcess *worker, short events) {
     for (;;) {
-        double left_s = deadline_s - clock_seconds();
+        double left_s = seconds_left(worker);
         if (left_s <= 0) return HEARD_TIMEOUT;
         struct pollfd fds[] = {{worker->socket, events, 0}, {worker->output, POLLIN, 0}};
         if (poll(fds, 2, (int)(left_s * 1000) + 1) < 0 && errno != EINTR) return HEARD_END;
@@ -139,7 +164,7 @@ static Heard wait_for(WorkerProcess *worker, short events, double deadline_s) {
     }
 }
 
-Heard worker_process_send(WorkerProcess *worker, const void *data, size_t size, double deadline_s) {
+Heard worker_process_send(WorkerProcess *worker, const void *data, size_t size) {
     for (size_t done = 0; done < size;) {
         ssize_t sent = send(worker->socket, (const char *)data + done, size - done, MSG_NOSIGNAL);
         if (sent > 0)
@@ -147,14 +172,14 @@ Heard worker_process_send(WorkerProcess *worker, const void *data, size_t size, 
         else if (errno != EAGAIN && errno != EINTR)
             return HEARD_END;
         else {
-            Heard heard = wait_for(worker, POLLOUT, deadline_s);
+            Heard heard = wait_for(worker, POLLOUT);
             if (heard != HEARD) return heard;
         }
     }
     return HEARD;
 }
 
-Heard worker_process_receive(WorkerProcess *worker, void *data, size_t size, double deadline_s) {
+Heard worker_process_receive(WorkerProcess *worker, void *data, size_t size) {
     for (size_t done = 0; done < size;) {
         ssize_t got = recv(worker->socket, (char *)data + done, size - done, 0);
         if (got > 0)
@@ -162,7 +187,7 @@ Heard worker_process_receive(WorkerProcess *worker, void *data, size_t size, dou
         else if (got == 0 || (errno != EAGAIN && errno != EINTR))
             return HEARD_END;
         else {
-            Heard heard = wait_for(worker, POLLIN, deadline_s);
+            Heard heard = wait_for(worker, POLLIN);
             if (heard != HEARD) return heard;
         }
     }

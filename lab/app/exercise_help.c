@@ -3,6 +3,7 @@
 
 #include "exercises/harness/hints.h"
 #include "exercises/harness/ledger.h"
+#include "exercises/harness/page.h"
 #include "exercises/harness/standing.h"
 #include "lab/app/command_line.h"
 #include "lab/base/fail.h"
@@ -13,6 +14,7 @@
 #include <sha256.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 // ---- hints ----
 
@@ -21,10 +23,12 @@ int exercise_hint(const char *root, const Exercise *e, const ExerciseOptions *o)
     char *text;
     (void)o;
     if (!standing_load(root, standings)) return command_failed();
+    Page page = page_for(STDOUT_FILENO, stdout);
     int index = mine->hints < HINT_COUNT ? mine->hints : HINT_COUNT - 1;
     for (int i = 0; i <= index; i++) {
         if (!hints_read(root, e, i, &text)) return command_failed();
-        printf("%s\n", text);
+        page_markdown(&page, text);
+        putchar('\n');
         mem_free(text);
     }
     printf("(hint %d of %d)\n", index + 1, HINT_COUNT);
