@@ -92,7 +92,9 @@ bool exercise_lay_out(const char *root, const Exercise *e) {
     char *source = exercise_source(root, e), *stub = exercise_stub(root, e), *text = NULL;
     size_t size;
     bool good = file_exists(source) || (file_read(stub, &text, &size) && file_write(source, text, size));
-    if (!good) fail_context("your file of exercise %d cannot be laid out; to work elsewhere, copy the folder %s there", e->number, root);
+    if (!good)
+        fail_context("your file of exercise %d cannot be laid out; to work elsewhere, copy the folder %s there",
+                     e->number, root);
     mem_free(text);
     mem_free(source);
     mem_free(stub);
