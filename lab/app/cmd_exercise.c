@@ -27,7 +27,10 @@ static const OptionField FIELDS[] = {
      .help = "selftest: measure what our solutions miss each claim by, from which the tolerances come"},
     {OPTION_JSON_OF(ExerciseOptions, "the result"), .section = "Output"},
 };
-enum { FIELD_COUNT = sizeof FIELDS / sizeof *FIELDS, WINDOW_FIELDS = 4 }; // of a window: size, scale, frames, screenshot
+enum {
+    FIELD_COUNT = sizeof FIELDS / sizeof *FIELDS,
+    WINDOW_FIELDS = 4
+}; // of a window: size, scale, frames, screenshot
 
 typedef struct {
     const char *name;
