@@ -2,6 +2,7 @@
 #include "splat2d/volume_ray.h"
 
 #include "splat2d/compositing.h"
+#include "splat2d/fog.h"
 
 #include <math.h>
 
@@ -80,7 +81,7 @@ static void add_panel(const VolumeRay *ray, const Panel *p, double tolerance, in
 enum { FIRST_PANELS = 32, HALVINGS_MAX = 20 };
 static const double TOLERANCE = 1e-12;
 
-void volume_ray_integral(const VolumeRay *ray, double rgb[3], double *transmittance) {
+double volume_ray_integral(const VolumeRay *ray, double rgb[3]) {
     double step = (ray->far - ray->near) / FIRST_PANELS;
     for (int c = 0; c < 3; c++) rgb[c] = 0;
     for (int i = 0; i < FIRST_PANELS; i++) {
@@ -88,19 +89,21 @@ void volume_ray_integral(const VolumeRay *ray, double rgb[3], double *transmitta
         Panel panel = panel_of(ray, from, to, integrand(ray, from), integrand(ray, to));
         add_panel(ray, &panel, TOLERANCE / FIRST_PANELS, HALVINGS_MAX, rgb);
     }
-    *transmittance = volume_ray_transmittance(ray, ray->far);
+    return volume_ray_transmittance(ray, ray->far);
 }
 
 // ---- the sum ----
 
-void volume_ray_quadrature(const VolumeRay *ray, int n, double rgb[3], double *transmittance) {
-    const CompositeRule rule = {.alpha_max = 1, .alpha_min = 0, .stop = 0, .rule = STOP_AFTER_BLEND};
+double volume_ray_quadrature(const VolumeRay *ray, VolumeRule rule, int n, double rgb[3], double *weights) {
+    const CompositeRule whole = {.alpha_max = 1, .alpha_min = 0, .stop = 0, .rule = STOP_AFTER_BLEND};
     Composite pixel = composite_begin();
     double delta = (ray->far - ray->near) / n;
     for (int i = 0; i < n; i++) {
         double colour[3], sigma = volume_ray_at(ray, ray->near + (i + 0.5) * delta, colour);
-        composite_blend(&pixel, &rule, -expm1(-sigma * delta), colour);
+        double alpha = rule == VOLUME_LINEAR ? fmin(1, sigma * delta) : fog_alpha(sigma, delta);
+        double weight = composite_blend(&pixel, &whole, alpha, colour);
+        if (weights) weights[i] = weight;
     }
     for (int c = 0; c < 3; c++) rgb[c] = pixel.rgb[c];
-    *transmittance = pixel.transmittance;
+    return pixel.transmittance;
 }

@@ -28,10 +28,16 @@ double volume_ray_at(const VolumeRay *ray, double t, double rgb[3]);
 
 double volume_ray_transmittance(const VolumeRay *ray, double t); // from near to t
 
-// C and T(far), to about 1e-12.
-void volume_ray_integral(const VolumeRay *ray, double rgb[3], double *transmittance);
+// C, to about 1e-12. Returns T(far).
+double volume_ray_integral(const VolumeRay *ray, double rgb[3]);
 
-// C by n equal segments, each with the density and colour of its middle.
-void volume_ray_quadrature(const VolumeRay *ray, int n, double rgb[3], double *transmittance);
+// How a segment's alpha is made of sigma delta. EXPONENTIAL is exact where sigma and c are constant in each segment, else the
+// error of the sum falls with 1 / n^2. LINEAR is the first term of its series: it exceeds 1 in thick fog (and is cut there),
+// and its error falls with 1 / n only.
+typedef enum { VOLUME_EXPONENTIAL, VOLUME_LINEAR, VOLUME_RULE_COUNT } VolumeRule;
+
+// C by n >= 1 equal segments, each with the density and colour of its middle, blended as in compositing.h.
+// weights: (n) of T_i alpha_i, or NULL. Returns T behind the last segment.
+double volume_ray_quadrature(const VolumeRay *ray, VolumeRule rule, int n, double rgb[3], double *weights);
 
 #endif

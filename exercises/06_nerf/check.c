@@ -1,6 +1,7 @@
 // check.c - E06: what density, alpha and the sum over samples must fulfil.
 #include "exercises/harness/catalogue.h"
 #include "splat2d/compositing.h"
+#include "splat2d/fog.h"
 #include "splat2d/volume_ray.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static void draw_piece(Rng *rng, int k, double *in) {
 static bool allows_piece(const double *in) { return in[0] >= 0 && in[1] >= 0 && in[0] * in[1] <= 80; }
 
 static void alpha(Trial *t, const double *in) {
-    double want = -expm1(-in[0] * in[1]);
+    double want = fog_alpha(in[0], in[1]);
     trial_near1(t, "alpha, of a piece of length delta; the error is taken relative to it", call_alpha(t, in[0], in[1]),
                 want, relative_to(want));
 }
@@ -47,7 +48,7 @@ static void draw_alpha(Rng *rng, int k, double *in) {
 static bool allows_alpha(const double *in) { return in[0] >= 0 && in[0] <= 0.9999 && in[1] > 1e-3 && in[1] < 1e3; }
 
 static void sigma(Trial *t, const double *in) {
-    double want = -log1p(-in[0]) / in[1];
+    double want = fog_sigma(in[0], in[1]);
     trial_near1(t, "sigma, of a piece that hides alpha; the error is taken relative to it", call_sigma(t, in[0], in[1]),
                 want, relative_to(want));
 }
@@ -146,19 +147,19 @@ static bool allows_one(const double *in) { return in[SAMPLES] == 1 && allows_ray
 // The piece's alpha is asked for as well: whether the sum has it from there shows when both are compared with a wrong variant's.
 static void one_piece(Trial *t, const double *in) {
     VolumeRay ray = ray_of(in);
-    double out[3], want[3], rgb[3], transmittance, delta = ray.far - ray.near;
+    double out[3], want[3], rgb[3], delta = ray.far - ray.near;
     double piece = call_alpha(t, volume_ray_at(&ray, ray.near + delta / 2, rgb), delta);
     call_render(t, in, 1, out);
-    volume_ray_quadrature(&ray, 1, want, &transmittance);
+    double transmittance = volume_ray_quadrature(&ray, VOLUME_EXPONENTIAL, 1, want, NULL);
     trial_near1(t, "alpha_from_sigma() of the middle", piece, 1 - transmittance, 1);
     trial_near(t, "out = r, g, b: that alpha times the colour of the middle", out, want, 3, 1);
 }
 
 static void weights(Trial *t, const double *in) {
     VolumeRay ray = ray_of(in);
-    double out[3], want[3], transmittance;
+    double out[3], want[3];
     call_render(t, in, in[SAMPLES], out);
-    volume_ray_quadrature(&ray, (int)in[SAMPLES], want, &transmittance);
+    volume_ray_quadrature(&ray, VOLUME_EXPONENTIAL, (int)in[SAMPLES], want, NULL);
     trial_near(t, "out = r, g, b: the samples as hits of E04", out, want, 3, 1);
 }
 
@@ -171,24 +172,28 @@ static void draw_smooth(Rng *rng, int k, double *in) {
     in[SAMPLES] = COARSE;
 }
 
+static double distance_from_truth(const VolumeRay *ray, const double rgb[3]) {
+    double truth[3], sum = 0;
+    volume_ray_integral(ray, truth);
+    for (int c = 0; c < 3; c++) sum += (rgb[c] - truth[c]) * (rgb[c] - truth[c]);
+    return sqrt(sum);
+}
+
 static double error_with(Trial *t, const double *in, double n) {
     VolumeRay ray = ray_of(in);
-    double out[3], truth[3], transmittance, sum = 0;
+    double out[3];
     call_render(t, in, n, out);
-    volume_ray_integral(&ray, truth, &transmittance);
-    for (int c = 0; c < 3; c++) sum += (out[c] - truth[c]) * (out[c] - truth[c]);
-    return sqrt(sum);
+    return distance_from_truth(&ray, out);
 }
 
 // Where the coarse sum is right by chance there is nothing to divide: such cases are not drawn.
 static bool allows_smooth(const double *in) {
     if (in[SAMPLES] != COARSE || !allows_ray(in)) return false;
     VolumeRay ray = ray_of(in);
-    double out[3], truth[3], transmittance, sum = 0;
-    volume_ray_quadrature(&ray, COARSE, out, &transmittance);
-    volume_ray_integral(&ray, truth, &transmittance);
-    for (int c = 0; c < 3; c++) sum += (out[c] - truth[c]) * (out[c] - truth[c]);
-    return sum > 1e-10 && sum < 1;
+    double out[3];
+    volume_ray_quadrature(&ray, VOLUME_EXPONENTIAL, COARSE, out, NULL);
+    double error = distance_from_truth(&ray, out);
+    return error > 1e-5 && error < 1;
 }
 
 static void draw_measurable(Rng *rng, int k, double *in) {
@@ -217,16 +222,16 @@ static void paint(ImageF *image, int column, int row_from, int rows, const doubl
 
 static bool picture(Subject *subject, const double *in, ImageF *yours, ImageF *reference) {
     VolumeRay ray = ray_of(in);
-    double out[3], want[3], truth[3], transmittance;
+    double out[3], want[3], truth[3];
     const double *f = in;
     bool good = true;
-    volume_ray_integral(&ray, truth, &transmittance);
+    volume_ray_integral(&ray, truth);
     *yours = imagef_create(STRIP_PIECES * COLUMN, 2 * STRIP_ROWS, 3);
     *reference = imagef_create(STRIP_PIECES * COLUMN, 2 * STRIP_ROWS, 3);
     for (int k = 0; good && k < STRIP_PIECES; k++) {
         double n = k + 1;
         good = CALL(subject_call, subject, "render_quadrature", IN_ARRAY(f, SAMPLES), IN(n), OUT_ARRAY(out, 3));
-        volume_ray_quadrature(&ray, k + 1, want, &transmittance);
+        volume_ray_quadrature(&ray, VOLUME_EXPONENTIAL, k + 1, want, NULL);
         paint(yours, k, 0, STRIP_ROWS, out);
         paint(reference, k, 0, STRIP_ROWS, want);
         paint(yours, k, STRIP_ROWS, STRIP_ROWS, truth);
