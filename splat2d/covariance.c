@@ -10,6 +10,7 @@ Sym2 covariance_from_angle(double angle_rad, double sigma_x, double sigma_y) {
 }
 
 double sym2_determinant(Sym2 a) { return a.xx * a.yy - a.xy * a.xy; }
+double sym2_length(Sym2 a) { return sqrt(a.xx * a.xx + 2 * a.xy * a.xy + a.yy * a.yy); }
 
 Sym2 sym2_add_diagonal(Sym2 a, double d) { return (Sym2){a.xx + d, a.xy, a.yy + d}; }
 

@@ -16,6 +16,7 @@ typedef struct {
 Sym2 covariance_from_angle(double angle_rad, double sigma_x, double sigma_y);
 
 double sym2_determinant(Sym2 a);
+double sym2_length(Sym2 a);               // Frobenius: xy counts twice, as it stands twice
 Sym2 sym2_add_diagonal(Sym2 a, double d); // a + d I: the low-pass filter
 
 // The conic: Sigma^-1. False (and *conic untouched) when det <= 0: such a matrix is no covariance, or has no extent.

@@ -91,14 +91,12 @@ static double skew_along(const double *pixels, int count, const double mean_px[2
     return third / pow(second, 1.5);
 }
 
-static double frobenius(Sym2 a) { return sqrt(a.xx * a.xx + 2 * a.xy * a.xy + a.yy * a.yy); }
-
 static void compare(EwaError *error) {
     Sym2 ewa = error->splat.covariance, conic = error->splat.conic, is = error->covariance;
     double dx = error->mean_px[0] - error->splat.mean_px[0], dy = error->mean_px[1] - error->splat.mean_px[1];
     error->shift = sqrt(conic_mahalanobis2(conic, dx, dy));
     Sym2 difference = {is.xx - ewa.xx, is.xy - ewa.xy, is.yy - ewa.yy};
-    error->covariance_error = frobenius(difference) / frobenius(ewa);
+    error->covariance_error = sym2_length(difference) / sym2_length(ewa);
 }
 
 bool ewa_error_measure(const EwaCloud *cloud, const GaussiansD *g, int i, const Camera *camera, EwaError *error) {

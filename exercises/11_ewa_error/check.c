@@ -157,7 +157,7 @@ static void draws(Trial *t, const double *in) {
         my_mean2, want.mean2, 1 + want.mean2);
     trial_near1(t,
                 "the trace of `cov` of a tiny ball, over three views along the axes: that of the draws, over 0.917820",
-                my_spread, want.spread / perspective_cut_factor(), 1 + want.spread);
+                my_spread, want.spread / ewa_cut_factor(EWA_CUT), 1 + want.spread);
 }
 
 // Within SIGMAS standard errors, each number by its own.
@@ -293,30 +293,28 @@ static bool allows_error(const double *in) {
 
 typedef struct {
     double shift, relative;
-} EwaError;
+} Measured;
 
-static EwaError call_error(Trial *t, const Found *found, const double centre[2], Sym2 ewa) {
+static Measured call_error(Trial *t, const Found *found, const double centre[2], Sym2 ewa) {
     const double *mean = found->mean;
     double cov[3] = {found->cov.xx, found->cov.xy, found->cov.yy}, S2[3] = {ewa.xx, ewa.xy, ewa.yy}, shift, relative;
     CALL(trial_call, t, "ewa_error", IN_ARRAY(mean, 2), IN_ARRAY(cov, 3), IN_ARRAY(centre, 2), IN_ARRAY(S2, 3),
          OUT(shift), OUT(relative));
-    return (EwaError){shift, relative};
+    return (Measured){shift, relative};
 }
-
-static double length_of(Sym2 a) { return sqrt(a.xx * a.xx + 2 * a.xy * a.xy + a.yy * a.yy); }
 
 static void measure(Trial *t, const double *in) {
     ErrorCase c;
     memcpy(&c, in, sizeof c);
     Sym2 S2 = covariance_from_angle(c.angle, c.sx, c.sy), conic;
     Found found = {{c.mean[0], c.mean[1]}, {c.cov[0], c.cov[1], c.cov[2]}};
-    EwaError yours = call_error(t, &found, c.centre, S2);
+    Measured yours = call_error(t, &found, c.centre, S2);
     covariance_conic(S2, &conic);
     double shift = sqrt(conic_mahalanobis2(conic, c.mean[0] - c.centre[0], c.mean[1] - c.centre[1]));
     trial_near1(t, "shift: from centre to mean, in standard deviations of S2", yours.shift, shift, fmax(1, shift));
     Sym2 off = {c.cov[0] - S2.xx, c.cov[1] - S2.xy, c.cov[2] - S2.yy};
     trial_near1(t, "relative: |cov - S2| / |S2|, xy counted twice as it stands twice", yours.relative,
-                length_of(off) / length_of(S2), 1);
+                sym2_length(off) / sym2_length(S2), 1);
 }
 
 // ---- the laws ----
@@ -362,7 +360,7 @@ static Found call_ball(Trial *t, const double *in, double r) {
 }
 
 // *outward: px by which the mean left the middle of the picture.
-static EwaError error_at(Trial *t, const double *in, const Found *tiny, double r, double *outward) {
+static Measured error_at(Trial *t, const double *in, const Found *tiny, double r, double *outward) {
     View view = ball_of(in, r, false);
     Found found = call_ball(t, in, r);
     Vec3 at = centre_of(&view);
@@ -378,7 +376,7 @@ static const double LAW_R = 0.1, LAW_TOLERANCE = 0.15;
 static void drift(Trial *t, const double *in) {
     Found tiny = call_ball(t, in, TINY);
     double outward, want = LAW_R * sin(in[LAW_ANGLE] * M_PI / 180);
-    EwaError error = error_at(t, in, &tiny, LAW_R, &outward);
+    Measured error = error_at(t, in, &tiny, LAW_R, &outward);
     trial_within(t, "shift of a ball of r = sigma/z = 0.1 (less the noise of its draws): r sin(theta)", &error.shift,
                  &want, 1, LAW_TOLERANCE * want + SIGMAS * LAW_R / sqrt(LAW_SAMPLES));
     trial_at_most(t, "px that the mean moved towards the middle of the picture: it moves outward", -outward, 0);
@@ -388,7 +386,7 @@ static void slopes(Trial *t, const double *in) {
     static const double SHIFT_SLOPE = 1, COVARIANCE_SLOPE = 2;
     Found tiny = call_ball(t, in, TINY);
     double outward;
-    EwaError small = error_at(t, in, &tiny, 0.05, &outward), large = error_at(t, in, &tiny, 0.2, &outward);
+    Measured small = error_at(t, in, &tiny, 0.05, &outward), large = error_at(t, in, &tiny, 0.2, &outward);
     double shift = log(large.shift / small.shift) / log(4), covariance = log(large.relative / small.relative) / log(4);
     trial_within(t, "the power of r = sigma/z by which the shift grows", &shift, &SHIFT_SLOPE, 1, 0.15);
     trial_within(t, "the power of r = sigma/z by which the error of the covariance grows", &covariance,

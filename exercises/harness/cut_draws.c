@@ -2,7 +2,7 @@
 #include "exercises/harness/cut_draws.h"
 
 #include "exercises/exercise.h"
-#include "exercises/harness/perspective.h"
+#include "splat3d/ewa_error.h"
 
 CutDraws cut_draws(unsigned long seed, int n) {
     double sum[3] = {0}, square = 0;
@@ -11,7 +11,7 @@ CutDraws cut_draws(unsigned long seed, int n) {
         double z[3];
         draw_normals(seed, i, z);
         double z2 = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
-        if (z2 > PERSPECTIVE_CUT * PERSPECTIVE_CUT) continue;
+        if (z2 > EWA_CUT * EWA_CUT) continue;
         for (int k = 0; k < 3; k++) sum[k] += z[k] / n;
         square += z2 / n;
         kept++;

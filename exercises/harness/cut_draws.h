@@ -7,7 +7,7 @@ typedef struct {
     double spread; // the mean of |z - mean|^2
 } CutDraws;
 
-// Of the first n draws z of draw_normals() (exercises/exercise.h) with |z| <= PERSPECTIVE_CUT; n >= 1. A rotation of all of them
+// Of the first n draws z of draw_normals() (exercises/exercise.h) with |z| <= EWA_CUT; n >= 1. A rotation of all of them
 // changes neither number.
 CutDraws cut_draws(unsigned long seed, int n);
 

@@ -36,8 +36,8 @@ static void cut_normal(Slice slices[NODES]) {
     legendre(node, weight);
     for (int i = 0; i < NODES; i++) {
         Slice *s = &slices[i];
-        s->zeta = PERSPECTIVE_CUT * node[i];
-        double h = (PERSPECTIVE_CUT * PERSPECTIVE_CUT - s->zeta * s->zeta) / 2, inside = -expm1(-h);
+        s->zeta = EWA_CUT * node[i];
+        double h = (EWA_CUT * EWA_CUT - s->zeta * s->zeta) / 2, inside = -expm1(-h);
         double rest = exp(-h) / inside;
         s->share = weight[i] * exp(-s->zeta * s->zeta / 2) * inside;
         s->square = 1 - h * rest;
@@ -54,13 +54,6 @@ static const Slice *the_cut_normal(void) {
     if (!made) cut_normal(slices);
     made = true;
     return slices;
-}
-
-double perspective_cut_factor(void) {
-    const Slice *slices = the_cut_normal();
-    double factor = 0;
-    for (int i = 0; i < NODES; i++) factor += slices[i].share * slices[i].zeta * slices[i].zeta;
-    return factor;
 }
 
 // The moments of one slice's picture, in units of f = 1.
@@ -102,7 +95,7 @@ Perspective perspective_of(const Camera *camera, Vec3 c, Sym3 sigma) {
         xxxx += slice->share * fourth_moment(dx, p.xx, slice);
         yyyy += slice->share * fourth_moment(dy, p.yy, slice);
     }
-    double fx = camera->fx, fy = camera->fy, factor = perspective_cut_factor();
+    double fx = camera->fx, fy = camera->fy, factor = ewa_cut_factor(EWA_CUT);
     return (Perspective){
         .mean = {fx * x + camera->cx, fy * y + camera->cy},
         .covariance = {fx * fx * xx / factor, fx * fy * xy / factor, fy * fy * yy / factor},

@@ -1,7 +1,7 @@
 // perspective.h - the picture of a Gaussian ball of points, exactly: mean and covariance of what a pinhole makes of it.
 //
-// The Gaussian is cut at CUT standard deviations: uncut it would reach through the plane of the camera, where x / z has no
-// mean. Its covariance is divided by perspective_cut_factor(), so that a camera far away sees the uncut one's.
+// The Gaussian is cut at EWA_CUT standard deviations: uncut it would reach through the plane of the camera, where x / z has no
+// mean. Its covariance is divided by ewa_cut_factor(), so that a camera far away sees the uncut one's.
 //
 // Only depth makes perspective more than a linear map. With zeta the standardised coordinate along which depth changes,
 // z = c_z + s zeta (s^2 = Sigma_zz), and at a given zeta the other coordinates are a Gaussian cut to a disc,
@@ -12,12 +12,7 @@
 #include "lab/base/vec.h"
 #include "splat2d/covariance.h"
 #include "splat3d/camera.h"
-#include "splat3d/reference.h"
-
-static const double PERSPECTIVE_CUT = 3; // standard deviations (Mahalanobis distance in space)
-
-// The variance of each coordinate of a standard normal in space, cut to the ball of radius PERSPECTIVE_CUT: 0.9178.
-double perspective_cut_factor(void);
+#include "splat3d/ewa_error.h"
 
 typedef struct {
     double mean[2];  // px

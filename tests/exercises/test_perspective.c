@@ -27,9 +27,9 @@ static const Vec3 MEAN = {0.8, -0.5, 2};
 
 static void the_cut_leaves_what_the_chi_square_distributions_say(void **state) {
     (void)state;
-    double cut2 = PERSPECTIVE_CUT * PERSPECTIVE_CUT;
-    support_near(perspective_cut_factor(), gsl_cdf_chisq_P(cut2, 5) / gsl_cdf_chisq_P(cut2, 3), 1e-14, "factor");
-    support_near(perspective_cut_factor(), 0.917820, 5e-7, "factor, as the page says");
+    double cut2 = EWA_CUT * EWA_CUT;
+    support_near(ewa_cut_factor(EWA_CUT), gsl_cdf_chisq_P(cut2, 5) / gsl_cdf_chisq_P(cut2, 3), 1e-14, "factor");
+    support_near(ewa_cut_factor(EWA_CUT), 0.917820, 5e-7, "factor, as the page says");
 }
 
 typedef struct {
@@ -54,7 +54,7 @@ static Sums sums_in_space(void) {
         for (size_t ring = 0; ring < RINGS; ring++)
             for (int step = 0; step < STEPS; step++) {
                 double radius, height, w_radius, w_height, turn = 2 * M_PI * step / STEPS;
-                gsl_integration_glfixed_point(0, PERSPECTIVE_CUT, b, &radius, &w_radius, balls);
+                gsl_integration_glfixed_point(0, EWA_CUT, b, &radius, &w_radius, balls);
                 gsl_integration_glfixed_point(-1, 1, ring, &height, &w_height, rings);
                 double across = radius * sqrt(1 - height * height);
                 sum_point(&sums, w_radius * w_height * radius * radius * exp(-radius * radius / 2),
@@ -69,7 +69,7 @@ static void the_integral_along_the_depth_is_the_one_over_space(void **state) {
     (void)state;
     Perspective p = perspective_of(&CAMERA, MEAN, covariance_of(SPLAT));
     Sums s = sums_in_space();
-    double x = s.x / s.weight, y = s.y / s.weight, factor = perspective_cut_factor();
+    double x = s.x / s.weight, y = s.y / s.weight, factor = ewa_cut_factor(EWA_CUT);
     support_near(p.mean[0], x, 1e-9, "mean x");
     support_near(p.mean[1], y, 1e-9, "mean y");
     support_near(p.covariance.xx, (s.xx / s.weight - x * x) / factor, 1e-6, "xx");
@@ -82,14 +82,14 @@ static void standard_errors_are_those_of_samples(void **state) {
     (void)state;
     enum { SAMPLES = 400, POINTS = 500 };
     Perspective p = perspective_of(&CAMERA, MEAN, covariance_of(SPLAT));
-    double factor = perspective_cut_factor(), square[5] = {0};
+    double factor = ewa_cut_factor(EWA_CUT), square[5] = {0};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (int sample = 0; sample < SAMPLES; sample++) {
         Sums s = {0};
         while (s.weight < POINTS) {
             double z[3], z2 = 0;
             for (int i = 0; i < 3; i++) z[i] = gsl_ran_gaussian(rng, 1), z2 += z[i] * z[i];
-            if (z2 <= PERSPECTIVE_CUT * PERSPECTIVE_CUT) sum_point(&s, 1, z);
+            if (z2 <= EWA_CUT * EWA_CUT) sum_point(&s, 1, z);
         }
         double x = s.x / POINTS, y = s.y / POINTS;
         const double off[5] = {x - p.mean[0], y - p.mean[1], (s.xx / POINTS - x * x) / factor - p.covariance.xx,
@@ -195,12 +195,12 @@ static void draws_and_seeds_know_nothing_of_each_other(void **state) {
         next += a[0] * b[0] / COUNT;
         neighbour += a[0] * c[0] / COUNT;
         double z2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-        if (z2 <= PERSPECTIVE_CUT * PERSPECTIVE_CUT) inside++, square += z2 / 3;
+        if (z2 <= EWA_CUT * EWA_CUT) inside++, square += z2 / 3;
     }
     support_near(next, 0, 5 / sqrt(COUNT), "draw i times draw i + 1");
     support_near(neighbour, 0, 5 / sqrt(COUNT), "seed times next seed");
     support_near(inside / COUNT, gsl_cdf_chisq_P(9, 3), 5 * sqrt(0.03 / COUNT), "share of what the cut keeps");
-    support_near(square / inside, perspective_cut_factor(), 5 / sqrt(COUNT), "variance of what it keeps");
+    support_near(square / inside, ewa_cut_factor(EWA_CUT), 5 / sqrt(COUNT), "variance of what it keeps");
 }
 
 static void the_judge_counts_the_draws_inside_the_cut(void **state) {

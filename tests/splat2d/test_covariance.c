@@ -38,6 +38,7 @@ static void check_eigen(Rng *rng, const char *seed) {
     support_near(eigen.major, major * major, 1e-12, seed);
     support_near(eigen.minor, minor * minor, 1e-12, seed);
     support_near(eigen.angle_rad, angle, 1e-9, seed);
+    support_near(sym2_length(a), hypot(gsl_vector_get(values, 0), gsl_vector_get(values, 1)), 1e-12, seed);
     gsl_eigen_symm_free(work);
     gsl_vector_free(values);
 }
