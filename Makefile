@@ -11,7 +11,7 @@ ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
 endif
 
-# What `make demo` does: about two minutes on two cores.
+# What `make demo` does: about a minute on two cores.
 DEMO_SCENE      ?= studio
 DEMO_SIZE       ?= 400x300
 DEMO_VIEWS      ?= 40
