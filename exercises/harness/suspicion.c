@@ -26,10 +26,9 @@ typedef struct {
 static int cases_of(const Rung *rung) { return rung->cases && rung->cases < CASES ? rung->cases : CASES; }
 
 static void testimony_take(const Rung *rung, Precision precision, Subject *subject, Testimony *testimony) {
-    int cases = rung->cases && rung->cases < CASES ? rung->cases : CASES; // a rung with few has heavy ones
+    int cases = cases_of(rung);
     for (int i = 0; i < SEEDS * cases; i++) {
         double in[RUNG_NUMBERS_MAX];
-        if (i % CASES >= cases_of(rung)) continue;
         Trial trial = {.subject = subject, .precision = precision, .tolerance = INFINITY, .is_traced = true};
         rung_draw(rung, (uint64_t)(1 + i / cases), i % cases, in);
         rung->check(&trial, in);

@@ -124,7 +124,7 @@ int worker_process_stop(WorkerProcess *worker) {
     }
     read_output(worker);
     close(worker->socket);
-    close(worker->output);
+    if (worker->output >= 0) close(worker->output);
     worker->pid = 0;
     return status;
 }
@@ -152,6 +152,12 @@ static double seconds_left(const WorkerProcess *worker) {
     return now_s < worker->hard_until_s && cpu_seconds(worker) < worker->cpu_until_s ? RETRY_S : 0;
 }
 
+// The far end is closed: poll() would come back at once each time.
+static void close_output(WorkerProcess *worker) {
+    close(worker->output);
+    worker->output = -1;
+}
+
 // Waits until the socket is ready for `events`, or something is wrong.
 static Heard wait_for(WorkerProcess *worker, short events) {
     for (;;) {
@@ -160,6 +166,7 @@ static Heard wait_for(WorkerProcess *worker, short events) {
         struct pollfd fds[] = {{worker->socket, events, 0}, {worker->output, POLLIN, 0}};
         if (poll(fds, 2, (int)(left_s * 1000) + 1) < 0 && errno != EINTR) return HEARD_END;
         if (fds[1].revents & POLLIN && !read_output(worker)) return HEARD_FLOOD;
+        if (fds[1].revents && !(fds[1].revents & POLLIN)) close_output(worker);
         if (fds[0].revents) return HEARD;
     }
 }

@@ -23,6 +23,8 @@ static const Attack ATTACKS[] = {
     {"an endless loop", "", "for (volatile int i = 0;; i++) continue;", TROUBLE_TIMEOUT,
      "did not come back within 2 s"},
     {"a sleep", "", "sleep(60);", TROUBLE_TIMEOUT, "did not come back within 2 s"},
+    {"a sleep with its output closed", "", "close(1); close(2); sleep(60);", TROUBLE_TIMEOUT,
+     "did not come back within 2 s"},
     {"4 GB", "", "volatile char *p = malloc((size_t)4 << 30); p[0] = 1; S[0] = p[0];", TROUBLE_MEMORY,
      "4.29e+03 MB of memory, which was refused"},
     {"a flood", "", "for (;;) puts(\"flood flood flood\");", TROUBLE_FLOOD, "printed more than 1 MB"},
