@@ -210,16 +210,19 @@ static const Splat2 **front_to_back(const Stage *s, int *count) {
     const Splat2 **order = mem_alloc((size_t)s->count, sizeof *order);
     *count = 0;
     for (int k = 0; k < s->count; k++)
-        if (s->splats[k].visible) order[(*count)++] = &s->splats[k];
+        if (s->splats[k].visible && !isnan(s->splats[k].depth)) order[(*count)++] = &s->splats[k];
     qsort(order, (size_t)*count, sizeof *order, by_depth);
     return order;
 }
 
+// Within 0..pixels, wherever a person's functions have put the splat; 0 for NaN.
+static int column(const HitRow *row, double x) { return (int)fmin(row->pixels, fmax(0, x)); }
+
 static void gather(HitRow *row, const Splat2 *splat, int y) {
     double dy = y + 0.5 - splat->mean_px[1];
     if (fabs(dy) > splat->reach_px[1]) return;
-    int from = (int)fmax(0, splat->mean_px[0] - splat->reach_px[0] - 0.5);
-    int to = (int)fmin(row->pixels, splat->mean_px[0] + splat->reach_px[0] + 1.5);
+    int from = column(row, splat->mean_px[0] - splat->reach_px[0] - 0.5);
+    int to = column(row, splat->mean_px[0] + splat->reach_px[0] + 1.5);
     for (int x = from; x < to; x++) {
         double m2 = conic_mahalanobis2(splat->conic, x + 0.5 - splat->mean_px[0], dy);
         double alpha = splat->opacity * exp(-m2 / 2);

@@ -187,6 +187,44 @@ static void all_stages_of_a_3d_picture_may_be_yours(void **state) {
     gaussians_destroy(&model);
 }
 
+// It passes every test; in a picture of this size alone it says infinite, not a number, and far outside.
+static void wild_places_do_no_harm(void **state) {
+    (void)state;
+    RandomScene scene = random_scene_default(5);
+    Camera camera = random_scene_camera(5, WIDTH, HEIGHT);
+    Gaussians model = random_scene_gaussians(&scene, &camera);
+    RenderSettings settings = render_settings_default();
+    Picture picture;
+    const Exercise *exercise = NULL;
+    for (int i = 0; i < EXERCISE_COUNT; i++)
+        if (strcmp(EXERCISES[i]->name, "camera") == 0) exercise = EXERCISES[i];
+    char *source = exercise_source(root, exercise);
+    lay_out(true);
+    write_text(source, "#define project right_project\n"
+                       "#include \"exercises/solutions/camera.c\"\n"
+                       "#undef project\n"
+                       "int project(const Cam *c, const REAL p[3], REAL uv[2], REAL *z) {\n"
+                       "    static const REAL places[] = {1e30, -1e30, NAN, INFINITY, -INFINITY};\n"
+                       "    static int call;\n"
+                       "    int seen = right_project(c, p, uv, z);\n"
+                       "    if (c->width != 40 || c->height != 30) return seen;\n"
+                       "    uv[0] = uv[1] = *z = places[call++ % 5];\n"
+                       "    if (call % 2) uv[1] = 15;\n"
+                       "    return 1;\n"
+                       "}\n");
+    Mine *mine = mine_open();
+    assert_non_null(mine);
+    assert_true(mine_is_used(mine, MINE_CAMERA));
+    Rasterizer *rasterizer = mine_rasterizer_create(mine);
+    assert_true(rasterizer_render(rasterizer, &model, &camera, &settings, &picture));
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++) assert_true(isfinite(picture.rgb.values[i]));
+    picture_destroy(&picture);
+    rasterizer_destroy(rasterizer);
+    mine_close(mine);
+    gaussians_destroy(&model);
+    mem_free(source);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(with_nothing_written_the_reference_draws),
@@ -194,6 +232,7 @@ int main(void) {
         cmocka_unit_test(what_is_saved_is_tried_again),
         cmocka_unit_test(a_crash_is_shown_and_the_reference_draws),
         cmocka_unit_test(all_stages_of_a_3d_picture_may_be_yours),
+        cmocka_unit_test(wild_places_do_no_harm),
     };
     return cmocka_run_group_tests(tests, copy_exercises, forget_exercises);
 }
