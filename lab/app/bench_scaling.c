@@ -18,6 +18,7 @@ enum { SPLATS_COUNT = sizeof SPLATS / sizeof SPLATS[0], SIZE_COUNT = sizeof SIZE
 
 typedef struct {
     const char *device, *kernels;
+    BlendKernels blend;
     uint64_t seed;
     int rounds, threads;
 } Plan;
@@ -48,7 +49,7 @@ static bool measure_row(Gpu *gpu, const Plan *plan, int splats, const int size_p
     BenchStages *stages = NULL;
     BenchResult result;
     log_info("bench: %d splats at %dx%d px, %d threads", splats, camera.width, camera.height, plan->threads);
-    bool done = bench_stages_create(gpu, BLEND_AUTO, &model, &camera, &photo, &stages) &&
+    bool done = bench_stages_create(gpu, plan->blend, &model, &camera, &photo, &stages) &&
                 bench_measure(gpu, stages, WANTED, plan->rounds, false, &result);
     bench_stages_destroy(stages);
     image8_destroy(&photo);
@@ -110,14 +111,14 @@ static bool measure_in_child(const Plan *plan, json_t *rows) {
 
 static double number(const json_t *row, const char *key) { return json_number_value(json_object_get(row, key)); }
 
-bool bench_scaling_run(const char *device, const char *kernels, uint64_t seed, int rounds, int most_threads,
-                       json_t **root) {
+bool bench_scaling_run(const char *device, const char *kernels, BlendKernels blend, uint64_t seed, int rounds,
+                       int most_threads, json_t **root) {
     json_t *rows = json_array();
     const int counts = most_threads > 1 ? 2 : 1;
     bool done = true;
     *root = json_pack("{sO so}", "rows", rows, "fits", json_array());
     for (int i = 0; done && i < counts; i++) {
-        const Plan plan = {device, kernels, seed, rounds, i ? most_threads : 1};
+        const Plan plan = {device, kernels, blend, seed, rounds, i ? most_threads : 1};
         done = measure_in_child(&plan, rows);
         if (done) json_array_append_new(json_object_get(*root, "fits"), bench_fit_rows(rows, plan.threads));
     }

@@ -219,7 +219,10 @@ static bool bench_scene(const Options *o, const bool *wanted) {
 
 static bool bench_scaling(const Options *o) {
     json_t *root;
-    if (!bench_scaling_run(o->device, o->kernels, o->seed, o->rounds, o->threads, &root)) return false;
+    const char *other = o->stage[0] ? "stage" : o->model[0] ? "model" : o->camera[0] ? "camera" : NULL;
+    if (other) return fail_usage("--scaling measures the standard scene in its own sizes; leave --%s away", other);
+    if (!bench_scaling_run(o->device, o->kernels, (BlendKernels)o->blend, o->seed, o->rounds, o->threads, &root))
+        return false;
     if (o->json)
         json_print(root);
     else

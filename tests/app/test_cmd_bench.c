@@ -67,6 +67,10 @@ static void a_wrong_stage_is_named_with_the_nearest_one(void **state) {
     command_expect_error(&r, 2, "blend_forwad", "blend_forward", NULL);
     r = command_run("bench", "--camera", "cam.json", NULL);
     command_expect_error(&r, 2, "--model", NULL);
+    r = command_run("bench", "--scaling", "--stage", "adam", NULL);
+    command_expect_error(&r, 2, "--stage", "standard scene", NULL);
+    r = command_run("bench", "--scaling", "--model", "model.ply", NULL);
+    command_expect_error(&r, 2, "--model", "standard scene", NULL);
     r = command_run("bench", "--model", "no/such.ply", NULL);
     command_expect_error(&r, 1, "no/such.ply", NULL);
 }
