@@ -8,6 +8,7 @@
 #include "lab/base/mem.h"
 #include "lab/io/json_io.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -69,8 +70,9 @@ static bool note(const char *root, const Verdict *v) {
 
 static bool parse_seed(const ExerciseOptions *o, uint64_t *seed) {
     char *end;
+    errno = 0;
     *seed = strtoull(o->seed, &end, 10);
-    if (!o->seed[0] || (!*end && o->seed[0] != '-')) return true;
+    if (!o->seed[0] || (!*end && o->seed[0] != '-' && errno == 0)) return true;
     return fail_usage("exercise: --seed %s: want a whole number, as a failed run prints it", o->seed);
 }
 

@@ -163,6 +163,8 @@ static void wrong_words_are_wrong_usage(void **state) {
     command_expect_error(&r, 2, "takes no number", NULL);
     r = command_run("exercise", "run", "1", "--seed", "x", NULL);
     command_expect_error(&r, 2, "--seed x: want a whole number", NULL);
+    r = command_run("exercise", "run", "1", "--seed", "18446744073709551616", NULL); // 2^64
+    command_expect_error(&r, 2, "want a whole number", NULL);
     r = command_run("exercise", "run", "1", "--sede", "1", NULL);
     command_expect_error(&r, 2, "did you mean --seed?", NULL);
     r = command_run("exercise", "run", "1", "--answer", "no-such.c", NULL);
