@@ -204,8 +204,8 @@ static bool make(BuildJob *job, const char *compiler, const char *path) {
     if (!made) {
         good = is_kernel(job) ? compile_kernels(job, temporary, printed, &made)
                               : compile_c(job, compiler, temporary, printed, &made);
+        if (good) rename(printed, words); // first: who finds the library finds the words too
         if (good && made) made = rename(temporary, path) == 0;
-        if (good) rename(printed, words);
     }
     if (good && !file_read(words, &job->diagnostics, &size)) job->diagnostics = mem_text("");
     if (good && made) job->library = mem_text(path);

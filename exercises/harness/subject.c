@@ -121,7 +121,7 @@ static bool trouble(Subject *s, TroubleKind kind, const char *format, ...) {
 // " at cov2.c:12", from the library's own debugging information; "" when the place is not the student's.
 static void place_of(const Subject *s, uint64_t offset, char *text, size_t size) {
     text[0] = 0;
-    if (!offset) return;
+    if (!offset || strchr(s->library, '\'')) return; // the path stands in quotes below
     char *command = mem_format("addr2line -e '%s' 0x%llx 2>/dev/null", s->library, (unsigned long long)offset);
     FILE *lines = popen(command, "r");
     mem_free(command);
