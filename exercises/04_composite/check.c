@@ -274,7 +274,7 @@ const Exercise EXERCISE_COMPOSITE = {
     .name = "composite",
     .title = "what a pixel sees of a sorted list of splats",
     .minutes = 40,
-    .unlocks = "the transmittance staircase of your own walk: splatlab widget --mine",
+    .unlocks = "the picture of the widget by your own walk, and its map of T: splatlab widget --mine",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };
