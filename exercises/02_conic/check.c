@@ -283,7 +283,7 @@ const Exercise EXERCISE_CONIC = {
     .name = "conic",
     .title = "from a covariance to its conic, a distance and a box",
     .minutes = 40,
-    .unlocks = "level lines and boxes of your own in the widget: splatlab widget --mine",
+    .unlocks = "your conics in the picture of the widget: splatlab widget --mine",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };

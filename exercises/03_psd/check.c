@@ -433,7 +433,7 @@ const Exercise EXERCISE_PSD = {
     .name = "psd",
     .title = "which numbers of a covariance to learn",
     .minutes = 60,
-    .unlocks = "the wall round the covariances, with your gradients: splatlab demo psd",
+    .unlocks = "the wall round the covariances, where both descents run: splatlab demo psd",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };

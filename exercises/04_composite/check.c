@@ -92,10 +92,11 @@ static void draw_visible(Rng *rng, int k, double *in) {
 }
 
 static void draw_faint(Rng *rng, int k, double *in) {
+    double low = k == 1 ? 0.997 : 0.5; // 1/256 is 0.9961 / 255
     do {
         draw_hits(rng, in, 3 + (int)rng_below(rng, 20), 0.005, 0.3);
         for (int i = 0; i < (int)in[N]; i++)
-            if (rng_uniform(rng) < 0.5) in[HITS_AT + 4 * i] = k == 0 ? 0 : rng_range(rng, 0.5, 0.99) * ALPHA_LOWEST;
+            if (rng_uniform(rng) < 0.5) in[HITS_AT + 4 * i] = k == 0 ? 0 : rng_range(rng, low, 0.998) * ALPHA_LOWEST;
     } while (!allows(in));
 }
 
@@ -274,7 +275,7 @@ const Exercise EXERCISE_COMPOSITE = {
     .name = "composite",
     .title = "what a pixel sees of a sorted list of splats",
     .minutes = 40,
-    .unlocks = "the transmittance staircase of your own walk: splatlab widget --mine",
+    .unlocks = "the picture of the widget by your own walk, and its map of T: splatlab widget --mine",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };

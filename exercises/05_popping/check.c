@@ -328,7 +328,7 @@ const Exercise EXERCISE_POPPING = {
     .name = "popping",
     .title = "the order of splats, and the jump when two change places",
     .minutes = 40,
-    .unlocks = "your own order and jump in the popping demo: splatlab demo popping",
+    .unlocks = "the popping demo, whose jump you can now predict: splatlab demo popping",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };

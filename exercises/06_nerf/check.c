@@ -300,7 +300,7 @@ const Exercise EXERCISE_NERF = {
     .name = "nerf",
     .title = "a ray through a cloud, with the sum of E04",
     .minutes = 60,
-    .unlocks = "NeRF's weights beside those of splats",
+    .unlocks = "the lesson of NeRF's sum, whose sums you can now take: docs/nerf.md",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };

@@ -41,7 +41,8 @@ static void print_numbers(const Page *page, const Failure *f) {
     }
     if (f->count > shown) page_paragraph(page, "", PAGE_PLAIN, "(%d of %d numbers)", shown, f->count);
     if (has_unwritten(f))
-        page_paragraph(page, "note", PAGE_BAD, "no line of yours wrote what is called (unwritten)");
+        page_paragraph(page, "note", PAGE_BAD,
+                       "no line of yours set what is called (unwritten); += needs something to add to: set it first");
     else if (isinf(f->error))
         page_paragraph(page, "off by", PAGE_BAD, "number %d is not a number", f->worst + 1);
     else if (!f->is_limit)

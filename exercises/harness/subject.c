@@ -150,6 +150,7 @@ static bool say_crash(Subject *s, const char *function, const WireAnswer *head) 
 
 static bool say_answer(Subject *s, const char *function, const Arg *args, int count, const WireAnswer *head) {
     if (head->arg < 0 || head->arg >= count) return trouble(s, TROUBLE_MEDDLING, MEDDLING_TEXT, function);
+    const char *symbol = strstr(head->text, "undefined symbol"); // behind the path of a file that nobody knows
     switch ((WireOutcome)head->outcome) {
     case ANSWER_DONE:
         return true;
@@ -157,7 +158,7 @@ static bool say_answer(Subject *s, const char *function, const Arg *args, int co
         return trouble(s, TROUBLE_NOT_STARTED, "not started yet: this is the place: %s:%d", head->text, head->line);
     case ANSWER_NO_FUNCTION:
         return trouble(s, TROUBLE_NO_FUNCTION, "%s has no function %s(): keep its name and its arguments%s%s", s->file,
-                       function, head->text[0] ? "; " : "", head->text);
+                       function, head->text[0] ? "; " : "", symbol ? symbol : head->text);
     case ANSWER_WROTE_OUTSIDE:
         return trouble(s, TROUBLE_WROTE_OUTSIDE, "%s() wrote outside its argument %s: %s[%d], which has %d number%s",
                        function, args[head->arg].name, args[head->arg].name, head->element, args[head->arg].count,

@@ -22,11 +22,29 @@ static void append(char *text, size_t size, const char *more) {
 
 enum { WHOLE_ARRAY = 18 /* a camera */, SHOWN_OF_LONGER = 4 };
 
+// The numbers that are not 0, where a long array has few of them: "24 numbers, all 0 but [20] = 0.0033". False where it has many.
+static bool append_sparse(char *text, size_t size, const Arg *arg) {
+    char number[60];
+    int found = 0;
+    for (int i = 0; i < arg->count; i++) found += arg->numbers[i] != 0;
+    if (found > SHOWN_OF_LONGER) return false;
+    snprintf(number, sizeof number, "%d numbers, all 0", arg->count);
+    append(text, size, number);
+    for (int i = 0, said = 0; i < arg->count; i++) {
+        if (arg->numbers[i] == 0) continue;
+        snprintf(number, sizeof number, "%s[%d] = %.7g", said++ ? ", " : " but ", i, arg->numbers[i]);
+        append(text, size, number);
+    }
+    append(text, size, ")");
+    return true;
+}
+
 // "theta = 0.5" or "bg = (0, 0, 0)".
 static void append_arg(char *text, size_t size, const Arg *arg) {
     char number[40];
     append(text, size, arg->name);
     append(text, size, arg->count == 1 ? " = " : " = (");
+    if (arg->count > WHOLE_ARRAY && append_sparse(text, size, arg)) return;
     int shown = arg->count <= WHOLE_ARRAY ? arg->count : SHOWN_OF_LONGER;
     for (int i = 0; i < shown; i++) {
         snprintf(number, sizeof number, "%s%.7g", i ? ", " : "", arg->numbers[i]);

@@ -15,13 +15,15 @@
 // ---- list ----
 
 static void print_list(const char *root, const Standing standings[EXERCISE_COUNT]) {
+    Page page = page_for(STDOUT_FILENO, stdout);
     int solved = 0;
-    printf("%-4s %-12s %-8s %5s  %s\n", "", "", "rungs", "min", "");
+    printf("%-4s %-12s %-8s %5s\n", "", "", "rungs", "min");
     for (int i = 0; i < EXERCISE_COUNT; i++) {
         const Exercise *e = EXERCISES[i];
         solved += standings[i].solved;
-        printf("E%02d  %-12s %2d of %-2d %s %3d  %s\n", e->number, e->name, standing_rungs(&standings[i], e),
-               e->rung_count, standings[i].solved ? "*" : " ", e->minutes, e->title);
+        int column = printf("E%02d  %-12s %2d of %-2d %s %3d  ", e->number, e->name, standing_rungs(&standings[i], e),
+                            e->rung_count, standings[i].solved ? "*" : " ", e->minutes);
+        page_wrap(&page, column, column, e->title);
     }
     printf("%d of %d solved (*)\n", solved, EXERCISE_COUNT);
     for (int i = 0; i < EXERCISE_COUNT; i++) {

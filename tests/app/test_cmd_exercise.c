@@ -46,6 +46,18 @@ static void the_list_lays_the_files_out(void **state) {
     json_decref(list);
 }
 
+static void the_list_fits_the_terminal(void **state) {
+    (void)state;
+    setenv("COLUMNS", "80", 1);
+    CommandResult r = command_run("exercise", NULL);
+    unsetenv("COLUMNS");
+    command_expect(&r, 0);
+    for (const char *line = r.out; line[0] == 'E' || line == r.out || line[0] == ' '; line += strcspn(line, "\n") + 1)
+        if (strcspn(line, "\n") > 80) fail_msg("more than 80 columns: %.*s", (int)strcspn(line, "\n"), line);
+    has(&r, "E08  cov3");
+    has(&r, "\n                                  "); // a title that goes on stands under its beginning
+}
+
 static void a_fresh_stub_fails_kindly_and_a_solution_passes(void **state) {
     (void)state;
     CommandResult r = command_run("exercise", "run", "1", NULL);
@@ -90,6 +102,28 @@ static void a_wrong_answer_is_json_and_can_be_replayed(void **state) {
     mem_free(shot);
     r = command_run("exercise", "show", "20", NULL);
     command_expect_error(&r, 1, "exercise 20 has no picture", NULL);
+}
+
+static void the_failing_hit_of_a_long_list_is_shown(void **state) {
+    (void)state;
+    exercise_files_copy("04_composite/mutants/no_skip.c", "04_composite/composite.c");
+    CommandResult r = command_run("exercise", "run", "4", NULL);
+    command_expect(&r, 1);
+    has(&r, "rung 4 of 7");
+    has(&r, " numbers, all 0 but [");
+}
+
+static void a_sum_that_begins_nowhere_is_told_so(void **state) {
+    (void)state;
+    exercise_files_write("01_cov2/cov2.c", "#include \"exercises/exercise.h\"\n"
+                                           "void cov2_from_rs(REAL theta, REAL sx, REAL sy, REAL S[3]) {\n"
+                                           "    (void)theta, (void)sx, (void)sy;\n"
+                                           "    for (int i = 0; i < 3; i++) S[i] += 0;\n"
+                                           "}\n");
+    CommandResult r = command_run("exercise", "run", "1", NULL);
+    command_expect(&r, 1);
+    has(&r, "(unwritten)");
+    has(&r, "+= needs something to add to");
 }
 
 static void hints_come_one_by_one(void **state) {
@@ -233,8 +267,11 @@ static void the_self_test_keeps_its_json(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(the_list_lays_the_files_out, fresh),
+        cmocka_unit_test_setup(the_list_fits_the_terminal, fresh),
         cmocka_unit_test_setup(a_fresh_stub_fails_kindly_and_a_solution_passes, fresh),
         cmocka_unit_test_setup(a_wrong_answer_is_json_and_can_be_replayed, fresh),
+        cmocka_unit_test_setup(the_failing_hit_of_a_long_list_is_shown, fresh),
+        cmocka_unit_test_setup(a_sum_that_begins_nowhere_is_told_so, fresh),
         cmocka_unit_test_setup(hints_come_one_by_one, fresh),
         cmocka_unit_test_setup(reset_keeps_what_was_written, fresh),
         cmocka_unit_test_setup(the_solution_opens_by_a_pass_or_the_key, fresh),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""pages.py - the pages of docs/ hang together: links, pictures, formulas, navigation, and the site made of them.
+"""pages.py - the pages of docs/ and exercises/ hang together: links, pictures, formulas, navigation, and the site of docs/.
 
     tests/lint/pages.py [ROOT]
 
@@ -25,6 +25,14 @@ def pages(root):
     return sorted(name for name in os.listdir(os.path.join(root, "docs")) if name.endswith(".md"))
 
 
+def all_pages(root):
+    """Paths of what a repository's browser shows as a page: docs/, and the exercises' tasks and hints."""
+    found = ["docs/" + name for name in pages(root)]
+    for where, _, names in os.walk(os.path.join(root, "exercises")):
+        found += [os.path.relpath(os.path.join(where, name), root) for name in names if name.endswith(".md")]
+    return sorted(found)
+
+
 def read(root, path):
     with open(os.path.join(root, path), encoding="utf-8") as stream:
         return stream.read()
@@ -44,16 +52,16 @@ def anchors(text):
 # ---- checks: each yields findings ----
 
 def broken_links(root):
-    for name in pages(root):
-        for target in re.findall(r"\]\(([^)\s]+)\)", prose(read(root, "docs/" + name))):
+    for name in all_pages(root):
+        for target in re.findall(r"\]\(([^)\s]+)\)", prose(read(root, name))):
             if re.match(r"[a-z]+:", target):
                 continue
             path, _, anchor = target.partition("#")
-            full = os.path.normpath(os.path.join(root, "docs", path)) if path else os.path.join(root, "docs", name)
+            full = os.path.normpath(os.path.join(root, os.path.dirname(name), path)) if path else os.path.join(root, name)
             if not os.path.exists(full):
-                yield f"docs/{name}: there is no {target}"
+                yield f"{name}: there is no {target}"
             elif anchor and anchor not in anchors(read(root, os.path.relpath(full, root))):
-                yield f"docs/{name}: {path} has no heading #{anchor}"
+                yield f"{name}: {path} has no heading #{anchor}"
 
 
 def unused_pictures(root):
@@ -88,14 +96,14 @@ def wrong_order(root):
 
 
 def wrong_formulas(root):
-    for name in pages(root):
-        text = read(root, "docs/" + name)
+    for name in all_pages(root):
+        text = read(root, name)
         if len(re.findall(r"^```", text, re.M)) % 2:
-            yield f"docs/{name}: a ``` without its twin"
+            yield f"{name}: a ``` without its twin"
         text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
         for paragraph in re.sub(r"`[^`\n]*`", "", text).split("\n\n"):
             if paragraph.count("$") % 2:
-                yield f"docs/{name}: a $ without its twin near {paragraph.strip()[:50]!r}"
+                yield f"{name}: a $ without its twin near {paragraph.strip()[:50]!r}"
 
 
 CHECKS = [broken_links, unused_pictures, wrong_navigation, wrong_order, wrong_formulas]
@@ -203,6 +211,7 @@ def tree(root, changes):
 
 PLANTED = [
     ("a link to nowhere", broken_links, {"docs/two.md": "[x](three.md)\n"}),
+    ("an exercise's link to nowhere", broken_links, {"exercises/01_one/README.md": "[x](../../docs/three.md)\n"}),
     ("a heading that is not there", broken_links, {"docs/two.md": "[x](one.md#three)\n"}),
     ("a picture that is not there", broken_links, {"docs/two.md": "![x](images/b.png)\n"}),
     ("a picture that no page shows", unused_pictures, {"docs/images/b.png": ""}),
