@@ -61,11 +61,16 @@ static bool run_watched(const Rung *rung, const Subject *subject, const double t
     return true;
 }
 
+// A mistake is named once, from the first wrong rung that tells it; a verdict shall not be waited for. (Kernels take a while to start:
+// one search alone.)
+enum { SEARCHES_MAX = 2 };
+
 // One after another until trouble that the next would meet as well.
 static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *options,
                   Subject *const subjects[PRECISION_COUNT], Verdict *v) {
     const Exercise *e = v->exercise;
     bool good = true, was_wrong = false;
+    int searches = e->is_kernel ? 1 : SEARCHES_MAX;
     for (int r = 0; good && r < e->rung_count; r++) {
         RungResult *result = &v->rungs[r];
         if (e->rungs[r].is_watched && was_wrong) continue; // numbers first
@@ -76,10 +81,12 @@ static bool climb(const char *root, const Ledger *ledger, const VerdictOptions *
             good = run_watched(&e->rungs[r], subjects[PRECISION_DOUBLE], tolerance, options, result);
         else
             rung_run(&e->rungs[r], subjects, tolerance, options->seeds, options->seed_count, result);
-        // Kernels take a while to start: the first wrong rung of theirs is named alone.
-        if (options->names_mistakes && is_wrong(result) && !(e->is_kernel && was_wrong) &&
-            !suspicion_find(root, e, &e->rungs[r], result->precision, subjects[result->precision], &v->suspicions[r]))
-            return false;
+        if (options->names_mistakes && is_wrong(result) && searches-- > 0) {
+            if (!suspicion_find(root, e, &e->rungs[r], result->precision, subjects[result->precision],
+                                &v->suspicions[r]))
+                return false;
+            if (v->suspicions[r].found) searches = 0;
+        }
         if (options->draws && v->pictured < 0 && is_wrong(result) && e->rungs[r].picture &&
             pictures_write(root, e, &e->rungs[r], result, subjects[result->precision]))
             v->pictured = r;
