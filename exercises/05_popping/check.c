@@ -328,7 +328,7 @@ const Exercise EXERCISE_POPPING = {
     .name = "popping",
     .title = "the order of splats, and the jump when two change places",
     .minutes = 40,
-    .unlocks = "the popping demo, whose jump you can now predict: splatlab demo popping",
+    .unlocks = "your order of the blobs: splatlab widget --mine; and the jump of splatlab demo popping, predicted",
     .rungs = RUNGS,
     .rung_count = sizeof RUNGS / sizeof *RUNGS,
 };

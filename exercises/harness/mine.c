@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const char *const NAMES[MINE_COUNT] = {"cov2", "conic", "composite", "cov3", "camera", "ewa", "sh"};
+static const char *const NAMES[MINE_COUNT] = {"cov2", "conic", "popping", "composite", "cov3", "camera", "ewa", "sh"};
 
 typedef struct {
     const Exercise *exercise; // NULL: this lab does not have it

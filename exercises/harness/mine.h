@@ -16,6 +16,7 @@ typedef struct Mine Mine;
 typedef enum {
     MINE_COV2,
     MINE_CONIC,
+    MINE_POPPING,
     MINE_COMPOSITE,
     MINE_PLANE_COUNT, // those above are all that a picture in the plane needs
     MINE_COV3 = MINE_PLANE_COUNT,

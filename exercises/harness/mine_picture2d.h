@@ -1,4 +1,4 @@
-// mine_picture2d.h - the picture of a 2-D scene by a person's own functions: E01's covariance, E02's conic, E04's compositing.
+// mine_picture2d.h - the picture of a 2-D scene by a person's own functions: E01's covariance, E02's conic, E05's order, E04's compositing.
 #ifndef SPLATLAB_EXERCISES_HARNESS_MINE_PICTURE2D_H
 #define SPLATLAB_EXERCISES_HARNESS_MINE_PICTURE2D_H
 

@@ -5,6 +5,7 @@
 #include "exercises/harness/mine_rasterizer.h"
 
 #include "exercises/harness/hit_row.h"
+#include "exercises/harness/mine_order.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "lab/base/progress.h"
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CAM_NUMBERS = 18 };
+enum { CAM_NUMBERS = MINE_CAM_NUMBERS };
 
 // The splats that the reference sees, and what the stages make of them.
 typedef struct {
@@ -206,12 +207,30 @@ static int by_depth(const void *a, const void *b) {
     return x < y ? -1 : 1; // they lie in the order of their indices
 }
 
+// E05: order holds the splats by index, and afterwards from front to back.
+static bool sort_mine(const Stage *s, const Splat2 **order, int count) {
+    const Splat2 **before = mem_alloc((size_t)count, sizeof *before);
+    int *rank = mem_alloc((size_t)count, sizeof *rank);
+    double *mu = mem_alloc((size_t)count * 3, sizeof *mu);
+    for (int k = 0; k < count; k++) {
+        Vec3 mean = mean_of(s, (int)(order[k] - s->splats));
+        before[k] = order[k];
+        memcpy(mu + 3 * k, (double[]){mean.x, mean.y, mean.z}, 3 * sizeof *mu);
+    }
+    bool good = mine_order(s->mine, s->cam, mu, count, rank);
+    for (int k = 0; good && k < count; k++) order[k] = before[rank[k]];
+    mem_free(mu);
+    mem_free(rank);
+    mem_free(before);
+    return good;
+}
+
 static const Splat2 **front_to_back(const Stage *s, int *count) {
     const Splat2 **order = mem_alloc((size_t)s->count, sizeof *order);
     *count = 0;
     for (int k = 0; k < s->count; k++)
         if (s->splats[k].visible && !isnan(s->splats[k].depth)) order[(*count)++] = &s->splats[k];
-    qsort(order, (size_t)*count, sizeof *order, by_depth);
+    if (!sort_mine(s, order, *count)) qsort(order, (size_t)*count, sizeof *order, by_depth);
     return order;
 }
 
