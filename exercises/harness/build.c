@@ -208,7 +208,7 @@ static bool make(BuildJob *job, const char *compiler, const char *path) {
         if (good && made) made = rename(temporary, path) == 0;
     }
     if (good && !file_read(words, &job->diagnostics, &size)) job->diagnostics = mem_text("");
-    if (good && made) job->library = mem_text(path);
+    if (good && made) job->object = mem_text(path);
     unlink(temporary);
     unlink(printed);
     mem_free(words);
@@ -246,7 +246,7 @@ bool build_all(BuildJob *jobs, int count) {
 }
 
 void build_free(BuildJob *job) {
-    mem_free(job->library);
+    mem_free(job->object);
     mem_free(job->diagnostics);
     *job = (BuildJob){0};
 }

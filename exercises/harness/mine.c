@@ -48,7 +48,7 @@ static void say_verdict(Part *part, const Verdict *v) {
 static Subject *open_library(const Mine *mine, const Exercise *e, const char *source) {
     char *calls = exercise_path(mine->root, e, "check_calls.c"), *file = exercise_file_name(e);
     BuildJob job = {.root = mine->root, .source = source, .calls = calls, .precision = PRECISION_DOUBLE};
-    Subject *subject = build_all(&job, 1) && job.library ? subject_start(job.library, file) : NULL;
+    Subject *subject = build_all(&job, 1) && job.object ? subject_start(job.object, file) : NULL;
     build_free(&job);
     mem_free(calls);
     mem_free(file);

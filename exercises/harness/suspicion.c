@@ -118,7 +118,7 @@ static double rank_of(const Agreement *a) {
 static bool start_all(const BuildJob *jobs, int count, Subject **subjects) {
     bool good = true;
     for (int i = 0; good && i < count; i++)
-        good = !jobs[i].library || (subjects[i] = subject_start(jobs[i].library, "a wrong variant"));
+        good = !jobs[i].object || (subjects[i] = subject_start(jobs[i].object, "a wrong variant"));
     return good;
 }
 

@@ -112,10 +112,10 @@ bool verdict_of(const char *root, const Exercise *exercise, const char *source, 
     for (int p = 0; p < PRECISION_COUNT; p++)
         jobs[p] = (BuildJob){.root = root, .source = source, .calls = calls, .precision = (Precision)p};
     bool good = build_all(jobs, PRECISION_COUNT);
-    v->compiled = good && jobs[0].library && jobs[1].library;
-    v->diagnostics = mem_text(good ? jobs[jobs[0].library ? 1 : 0].diagnostics : "");
+    v->compiled = good && jobs[0].object && jobs[1].object;
+    v->diagnostics = mem_text(good ? jobs[jobs[0].object ? 1 : 0].diagnostics : "");
     for (int p = 0; good && v->compiled && p < PRECISION_COUNT; p++)
-        good = (subjects[p] = subject_start(jobs[p].library, file)) != NULL;
+        good = (subjects[p] = subject_start(jobs[p].object, file)) != NULL;
     if (good && v->compiled) good = climb(root, ledger, options, subjects, v);
     v->passed = good && v->compiled && verdict_first_failed(v) < 0;
     v->not_started = v->rungs[0].failure.trouble.kind == TROUBLE_NOT_STARTED;

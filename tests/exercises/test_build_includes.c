@@ -32,8 +32,8 @@ static char *library_of(const char *root, const char *source) {
     BuildJob job = {
         .root = root, .source = source, .calls = "exercises/01_cov2/check_calls.c", .precision = PRECISION_DOUBLE};
     assert_true(build_all(&job, 1));
-    if (!job.library) fail_msg("%s", job.diagnostics);
-    char *library = mem_text(job.library);
+    if (!job.object) fail_msg("%s", job.diagnostics);
+    char *library = mem_text(job.object);
     build_free(&job);
     return library;
 }

@@ -29,8 +29,8 @@ static void answer(const char *body) {
     for (int p = 0; p < PRECISION_COUNT; p++) {
         BuildJob job = {.root = root, .source = source, .calls = calls, .precision = (Precision)p};
         assert_true(build_all(&job, 1));
-        if (!job.library) fail_msg("%s", job.diagnostics);
-        assert_non_null(subjects[p] = subject_start(job.library, "cov2.c"));
+        if (!job.object) fail_msg("%s", job.diagnostics);
+        assert_non_null(subjects[p] = subject_start(job.object, "cov2.c"));
         build_free(&job);
     }
     mem_free(source);
@@ -148,7 +148,7 @@ static void a_compiler_error_names_the_students_line(void **state) {
          *calls = exercise_path(root, EXERCISES[0], "check_calls.c");
     BuildJob job = {.root = root, .source = source, .calls = calls, .precision = PRECISION_DOUBLE};
     assert_true(build_all(&job, 1));
-    assert_null(job.library);
+    assert_null(job.object);
     assert_non_null(strstr(job.diagnostics, "cov2.c:3:5: error: "));
     build_free(&job);
     setenv("CC", "no-such-compiler", 1);
