@@ -67,10 +67,10 @@ static inline void unblend_block(const float alpha_max, const ScreenSplat *splat
     const float16 dy = y - splat->y;
     const float16 u = fma((float16)(splat->shear), dy, x - splat->x);
     const float16 power = fma(splat->along_u * u, u, fma(splat->along_v * dy, dy, (float16)(splat->log2_opacity)));
-    const float16 free_alpha = exp2_fast16(power);
     const int16 blended = power >= LOG2_ALPHA_MIN && index < state->last;
+    const float16 free_alpha = blended ? exp2_fast16(power) : (float16)(0);
     const int16 clamped = free_alpha >= alpha_max;
-    const float16 alpha = blended ? (clamped ? (float16)(alpha_max) : free_alpha) : (float16)(0);
+    const float16 alpha = clamped ? (float16)(alpha_max) : free_alpha;
 
     const float16 inverse = 1.0f / (1.0f - alpha);
     const float16 colour_g =

@@ -57,14 +57,15 @@ static void blend_block(const float alpha_max, const uint *words, const ScreenSp
             const float16 u = fma((float16)(splat->shear), dy, x - splat->x);
             const float16 power =
                 fma(splat->along_u * u, u, fma(splat->along_v * dy, dy, (float16)(splat->log2_opacity)));
-            float16 alpha = exp2_fast16(power);
+            const int16 reached = power >= LOG2_ALPHA_MIN;
+            float16 alpha = reached ? exp2_fast16(power) : (float16)(0);
             alpha = alpha < alpha_max ? alpha : (float16)(alpha_max);
-            const int16 blended = power >= LOG2_ALPHA_MIN && t >= TRANSMITTANCE_STOP;
+            const int16 blended = reached && t >= TRANSMITTANCE_STOP;
             const float16 weight = blended ? alpha * t : (float16)(0);
             r = fma(weight, (float16)(splat->r), r);
             g = fma(weight, (float16)(splat->g), g);
             b = fma(weight, (float16)(splat->b), b);
-            t -= weight;
+            t = blended ? fma(-alpha, t, t) : t;
             last = blended ? (int16)(first + i + 1) : last;
         }
     }

@@ -61,9 +61,8 @@ static void reserve_keys(OpenclBinning *binning, int count) {
     binning->keys_capacity = capacity;
 }
 
-// Slots in the order of the splats, and the visible splats in depth order; both sides are mapped memory of n entries.
-static void order_splats(OpenclBinning *binning, int n, const TileBox *box, const float *depth, uint32_t *offset,
-                         uint32_t *order) {
+// Slots in the order of the splats, and the keys of the visible ones; mapped memory of n entries.
+static void number_slots(OpenclBinning *binning, int n, const TileBox *box, const float *depth, uint32_t *offset) {
     const double began_s = clock_seconds();
     binning->visible = 0;
     binning->slots = 0;
@@ -74,28 +73,19 @@ static void order_splats(OpenclBinning *binning, int n, const TileBox *box, cons
         binning->slots += tiles;
         binning->keys[binning->visible++] = depth_sort_key(depth[i], (uint32_t)i);
     }
-    depth_sort(binning->visible, binning->keys, binning->scratch, order);
     gpu_stage_host(binning->gpu, (clock_seconds() - began_s) * 1e3);
 }
 
-bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
-    const int n = frame->splat_count;
-    const size_t bytes = (size_t)n * sizeof(uint32_t);
-    void *box, *depth, *offset, *order;
-    gpu_stage(binning->gpu, "sort");
+static bool make_slots(OpenclBinning *binning, int n, const OpenclProject *project) {
+    void *box, *depth, *offset;
     reserve_keys(binning, n);
-    if (!gpu_buffer_reserve(binning->offset, bytes) || !gpu_buffer_reserve(binning->order, bytes)) return false;
-
+    if (!gpu_buffer_reserve(binning->offset, (size_t)n * sizeof(uint32_t))) return false;
     if (!gpu_buffer_map(project->box, GPU_READ, &box)) return false;
     bool done = gpu_buffer_map(project->depth, GPU_READ, &depth);
     if (done) {
         done = gpu_buffer_map(binning->offset, GPU_WRITE, &offset);
-        if (done) {
-            done = gpu_buffer_map(binning->order, GPU_WRITE, &order);
-            if (done) order_splats(binning, n, box, depth, offset, order);
-            done = done && gpu_buffer_unmap(binning->order);
-            done = gpu_buffer_unmap(binning->offset) && done;
-        }
+        if (done) number_slots(binning, n, box, depth, offset);
+        done = done && gpu_buffer_unmap(binning->offset);
         done = gpu_buffer_unmap(project->depth) && done;
     }
     done = gpu_buffer_unmap(project->box) && done;
@@ -105,6 +95,25 @@ bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const
             "Smaller pictures need fewer",
             binning->visible, binning->slots, INT_MAX);
     return done;
+}
+
+// The host sorts while the device makes the masks: the order is mapped before, so that the map does not wait for them. (A stage
+// report counts the masks, and what the sort takes longer than they do as `other`.)
+bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
+    const size_t n = (size_t)frame->splat_count;
+    void *order;
+    gpu_stage(binning->gpu, "sort");
+    if (!make_slots(binning, frame->splat_count, project) ||
+        !gpu_buffer_reserve(binning->mask, (size_t)binning->slots * sizeof(uint16_t)) ||
+        !gpu_buffer_reserve(binning->order, n * sizeof(uint32_t)) || !gpu_buffer_map(binning->order, GPU_WRITE, &order))
+        return false;
+    const bool done =
+        gpu_launch(binning->masks, ((GpuRange){.width = n, .group_width = GROUP_SIZE}),
+                   gpu_record_arg(frame, sizeof *frame), gpu_buffer_arg(project->screen), gpu_buffer_arg(project->box),
+                   gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask)) &&
+        gpu_flush(binning->gpu);
+    if (done) depth_sort(binning->visible, binning->keys, binning->scratch, order);
+    return gpu_buffer_unmap(binning->order) && done;
 }
 
 // Turns each tile's number of pairs into where its list starts.
@@ -125,20 +134,15 @@ static bool place_lists(OpenclBinning *binning, int tile_count) {
 }
 
 bool opencl_binning_lists(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
-    const size_t n = (size_t)frame->splat_count;
     const int tile_count = frame->tiles_x * frame->tiles_y;
     const int chunks = gpu_info(binning->gpu)->is_cpu ? CHUNKS_CPU : CHUNKS_GPU;
     const int chunk_length = (binning->visible + chunks - 1) / chunks;
 
     gpu_stage(binning->gpu, "bin");
-    if (!gpu_buffer_reserve(binning->mask, (size_t)binning->slots * sizeof(uint16_t)) ||
-        !gpu_buffer_reserve(binning->counts, (size_t)chunks * (size_t)tile_count * sizeof(uint32_t)) ||
+    if (!gpu_buffer_reserve(binning->counts, (size_t)chunks * (size_t)tile_count * sizeof(uint32_t)) ||
         !gpu_buffer_reserve(binning->start, ((size_t)tile_count + 1) * sizeof(uint32_t)))
         return false;
-    if (!gpu_launch(binning->masks, ((GpuRange){.width = n, .group_width = GROUP_SIZE}),
-                    gpu_record_arg(frame, sizeof *frame), gpu_buffer_arg(project->screen), gpu_buffer_arg(project->box),
-                    gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask)) ||
-        !gpu_launch(binning->count, ((GpuRange){.width = (size_t)chunks, .group_width = 1}),
+    if (!gpu_launch(binning->count, ((GpuRange){.width = (size_t)chunks, .group_width = 1}),
                     gpu_int_arg(binning->visible), gpu_int_arg(chunk_length), gpu_int_arg(frame->tiles_x),
                     gpu_int_arg(tile_count), gpu_int_arg(chunks), gpu_buffer_arg(binning->order),
                     gpu_buffer_arg(project->box), gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask),

@@ -39,8 +39,8 @@ typedef struct {
 bool opencl_binning_create(Gpu *gpu, OpenclBinning *binning);
 void opencl_binning_destroy(OpenclBinning *binning); // accepts a zeroed, half-built or destroyed one
 
-// From what opencl_project_forward() left, in two stages: the depth order and the slots (waits for the device; fails when there are
-// more than 2^31 - 1 slots), then the masks and the lists (waits once, for the lists' lengths).
+// From what opencl_project_forward() left, in two stages: slots, masks and the depth order (waits for the device; fails when there
+// are more than 2^31 - 1 slots), then the lists (waits once, for their lengths).
 bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project);
 bool opencl_binning_lists(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project);
 

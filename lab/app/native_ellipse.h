@@ -28,15 +28,15 @@ static void tile_centres(const FrameRecord *frame, int tile, TileCentres *centre
         }
 }
 
-static inline Lanes exp2_lanes(Lanes x) {
-    const Lanes rounder = lanes_all(12582912.0f), shifted = lanes_add(x, rounder);
-    const Lanes f = lanes_sub(x, lanes_sub(shifted, rounder));
-    Lanes p = lanes_fma(lanes_all(0.00132764722f), f, lanes_all(0.00967554133f));
-    p = lanes_fma(p, f, lanes_all(0.0555071327f));
-    p = lanes_fma(p, f, lanes_all(0.240221197f));
-    p = lanes_fma(p, f, lanes_all(0.693146967f));
-    p = lanes_fma(p, f, lanes_all(1.00000007f));
-    return lanes_scale(p, shifted);
+// 2^x where the mask is set, else 0 (kernels/exp2_fast.h).
+static inline Lanes exp2_lanes(LaneMask m, Lanes x) {
+    const Lanes f = lanes_fraction(x);
+    Lanes p = lanes_fma(lanes_all(0.00187757646f), f, lanes_all(0.00898933969f));
+    p = lanes_fma(p, f, lanes_all(0.0558263138f));
+    p = lanes_fma(p, f, lanes_all(0.240153611f));
+    p = lanes_fma(p, f, lanes_all(0.693153024f));
+    p = lanes_fma(p, f, lanes_all(0.99999994f));
+    return lanes_scale(m, p, x);
 }
 
 // The splat's ellipse at sixteen pixels: log2 alpha, and the coordinates u and dy.

@@ -26,6 +26,8 @@ typedef struct {
 #define LANES_AND(half, a, b)      _mm256_and_ps((a).half, (b).half)
 #define LANES_GE(half, a, b)       _mm256_cmp_ps((a).half, (b).half, _CMP_GE_OQ)
 #define LANES_FMA(half, a, b, c)   _mm256_fmadd_ps((a).half, (b).half, (c).half)
+#define LANES_FMS(half, a, b, c)   _mm256_fmsub_ps((a).half, (b).half, (c).half)
+#define LANES_FNMA(half, a, b, c)  _mm256_fnmadd_ps((a).half, (b).half, (c).half)
 #define LANES_BLEND(half, m, a, b) _mm256_blendv_ps((b).half, (a).half, (m).half)
 
 static inline Lanes lanes_all(float x) { return (Lanes){_mm256_set1_ps(x), _mm256_set1_ps(x)}; }
@@ -39,6 +41,8 @@ static inline Lanes lanes_sub(Lanes a, Lanes b) { return LANES_BOTH(LANES_SUB, a
 static inline Lanes lanes_mul(Lanes a, Lanes b) { return LANES_BOTH(LANES_MUL, a, b); }
 static inline Lanes lanes_div(Lanes a, Lanes b) { return LANES_BOTH(LANES_DIV, a, b); }
 static inline Lanes lanes_fma(Lanes a, Lanes b, Lanes c) { return LANES_BOTH(LANES_FMA, a, b, c); }
+static inline Lanes lanes_fms(Lanes a, Lanes b, Lanes c) { return LANES_BOTH(LANES_FMS, a, b, c); }   // a b - c
+static inline Lanes lanes_fnma(Lanes a, Lanes b, Lanes c) { return LANES_BOTH(LANES_FNMA, a, b, c); } // c - a b
 static inline Lanes lanes_min(Lanes a, Lanes b) { return LANES_BOTH(LANES_MIN, a, b); }
 static inline float lanes_sum(Lanes v) {
     const __m256 a = _mm256_add_ps(v.low, v.high);
@@ -78,11 +82,13 @@ static inline bool lane_mask_any(LaneMask m) { return _mm256_movemask_ps(_mm256_
 static inline Lanes lanes_choose(LaneMask m, Lanes a, Lanes b) { return LANES_BOTH(LANES_BLEND, m, a, b); }
 static inline Lanes lanes_keep(LaneMask m, Lanes a) { return LANES_BOTH(LANES_AND, m, a); }
 
-// 2^n times p, with n in the low bits of `shifted`: the end of exp2.
-#define LANES_SCALE(half, p, shifted)                                                                                  \
-    _mm256_castsi256_ps(                                                                                               \
-        _mm256_add_epi32(_mm256_castps_si256((p).half), _mm256_slli_epi32(_mm256_castps_si256((shifted).half), 23)))
-static inline Lanes lanes_scale(Lanes p, Lanes shifted) { return LANES_BOTH(LANES_SCALE, p, shifted); }
+#define LANES_FRACTION(half, x) _mm256_sub_ps((x).half, _mm256_floor_ps((x).half))
+static inline Lanes lanes_fraction(Lanes x) { return LANES_BOTH(LANES_FRACTION, x); } // x - floor(x)
+// 2^floor(x) times p where the mask is set, else 0.
+#define LANES_SCALE(half, p, x)                                                                                        \
+    _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256((p).half),                                                \
+                                         _mm256_slli_epi32(_mm256_cvtps_epi32(_mm256_floor_ps((x).half)), 23)))
+static inline Lanes lanes_scale(LaneMask m, Lanes p, Lanes x) { return lanes_keep(m, LANES_BOTH(LANES_SCALE, p, x)); }
 
 static inline LaneBits lane_bits_none(void) { return (LaneBits){_mm256_setzero_si256(), _mm256_setzero_si256()}; }
 // Shifts every lane left by one and puts bit k of `mask` into lane k.

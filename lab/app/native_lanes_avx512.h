@@ -21,6 +21,8 @@ static inline Lanes lanes_sub(Lanes a, Lanes b) { return _mm512_sub_ps(a, b); }
 static inline Lanes lanes_mul(Lanes a, Lanes b) { return _mm512_mul_ps(a, b); }
 static inline Lanes lanes_div(Lanes a, Lanes b) { return _mm512_div_ps(a, b); }
 static inline Lanes lanes_fma(Lanes a, Lanes b, Lanes c) { return _mm512_fmadd_ps(a, b, c); }
+static inline Lanes lanes_fms(Lanes a, Lanes b, Lanes c) { return _mm512_fmsub_ps(a, b, c); }   // a b - c
+static inline Lanes lanes_fnma(Lanes a, Lanes b, Lanes c) { return _mm512_fnmadd_ps(a, b, c); } // c - a b
 static inline Lanes lanes_min(Lanes a, Lanes b) { return _mm512_min_ps(a, b); }
 static inline float lanes_sum(Lanes v) { return _mm512_reduce_add_ps(v); }
 // out[0..7]: the sums of eight vectors, added up together, halving their lanes each time.
@@ -47,11 +49,9 @@ static inline bool lane_mask_any(LaneMask m) { return m != 0; }
 static inline Lanes lanes_choose(LaneMask m, Lanes a, Lanes b) { return _mm512_mask_mov_ps(b, m, a); }
 static inline Lanes lanes_keep(LaneMask m, Lanes a) { return _mm512_maskz_mov_ps(m, a); }
 
-// 2^n times p, with n in the low bits of `shifted`: the end of exp2.
-static inline Lanes lanes_scale(Lanes p, Lanes shifted) {
-    return _mm512_castsi512_ps(
-        _mm512_add_epi32(_mm512_castps_si512(p), _mm512_slli_epi32(_mm512_castps_si512(shifted), 23)));
-}
+static inline Lanes lanes_fraction(Lanes x) { return _mm512_reduce_ps(x, 1); } // x - floor(x)
+// 2^floor(x) times p where the mask is set, else 0.
+static inline Lanes lanes_scale(LaneMask m, Lanes p, Lanes x) { return _mm512_maskz_scalef_ps(m, p, x); }
 
 static inline LaneBits lane_bits_none(void) { return _mm512_setzero_si512(); }
 // Shifts every lane left by one and puts bit k of `mask` into lane k.

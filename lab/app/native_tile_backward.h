@@ -62,16 +62,16 @@ static uint32_t begun_blocks(const int *block_last, int index, int *next) {
 static inline void unblend_lanes(float alpha_max, const ScreenSplat *splat, int index, const float *x, const float *y,
                                  BackwardState *s, PairSums *sums) {
     Lanes u, dy;
-    const Lanes power = ellipse_power(splat, x, y, &u, &dy), free_alpha = exp2_lanes(power);
+    const Lanes power = ellipse_power(splat, x, y, &u, &dy);
     const LaneMask blended =
         lane_mask_and(lanes_ge(power, lanes_all(LOG2_ALPHA_MIN)), lanes_ge(s->last, lanes_all((float)(index + 1))));
+    const Lanes free_alpha = exp2_lanes(blended, power), alpha = lanes_min(free_alpha, lanes_all(alpha_max));
     const LaneMask clamped = lanes_ge(free_alpha, lanes_all(alpha_max));
-    const Lanes alpha = lanes_keep(blended, lanes_min(free_alpha, lanes_all(alpha_max)));
     const Lanes inverse = lanes_div(lanes_all(1), lanes_sub(lanes_all(1), alpha));
     const Lanes colour_g =
         lanes_fma(lanes_all(splat->r), s->g_red,
                   lanes_fma(lanes_all(splat->g), s->g_green, lanes_mul(lanes_all(splat->b), s->g_blue)));
-    const Lanes d_alpha = lanes_mul(inverse, lanes_sub(lanes_mul(s->t, colour_g), s->behind));
+    const Lanes d_alpha = lanes_mul(inverse, lanes_fms(s->t, colour_g, s->behind));
     s->t = lanes_mul(s->t, inverse);
     const Lanes weight = lanes_mul(alpha, s->t);
     s->behind = lanes_fma(weight, colour_g, s->behind);

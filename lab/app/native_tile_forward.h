@@ -22,14 +22,14 @@ static inline void blend_bits(float alpha_max, const uint32_t *words, const Scre
             const ScreenSplat *splat = &staged[i];
             Lanes u, dy;
             const Lanes power = ellipse_power(splat, x, y, &u, &dy);
-            const LaneMask blended =
-                lane_mask_and(lanes_ge(power, lanes_all(LOG2_ALPHA_MIN)), lanes_ge(s.t, lanes_all(TRANSMITTANCE_STOP)));
-            const Lanes alpha = lanes_min(exp2_lanes(power), lanes_all(alpha_max));
+            const LaneMask reached = lanes_ge(power, lanes_all(LOG2_ALPHA_MIN));
+            const LaneMask blended = lane_mask_and(reached, lanes_ge(s.t, lanes_all(TRANSMITTANCE_STOP)));
+            const Lanes alpha = lanes_min(exp2_lanes(reached, power), lanes_all(alpha_max));
             const Lanes weight = lanes_keep(blended, lanes_mul(alpha, s.t));
             s.r = lanes_fma(weight, lanes_all(splat->r), s.r);
             s.g = lanes_fma(weight, lanes_all(splat->g), s.g);
             s.b = lanes_fma(weight, lanes_all(splat->b), s.b);
-            s.t = lanes_sub(s.t, weight);
+            s.t = lanes_choose(blended, lanes_fnma(alpha, s.t, s.t), s.t);
             s.last = lanes_choose(blended, lanes_all((float)(first + i + 1)), s.last);
         }
     *state = s;

@@ -133,6 +133,7 @@ bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, cons
     gpu_launch_args(kernel, range, (const GpuArg[]){__VA_ARGS__},                                                      \
                     (int)(sizeof((const GpuArg[]){__VA_ARGS__}) / sizeof(GpuArg)))
 
+bool gpu_flush(Gpu *gpu);  // lets the device begin with all commands; does not wait
 bool gpu_finish(Gpu *gpu); // waits until all commands are done
 
 // What was asked of the driver since the device was opened.

@@ -61,6 +61,8 @@ bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, cons
 
 GpuCounts gpu_counts(const Gpu *gpu) { return gpu->counts; }
 
+bool gpu_flush(Gpu *gpu) { return opencl_ok(clFlush(gpu->queue), "clFlush", "the queue", gpu); }
+
 bool gpu_finish(Gpu *gpu) {
     gpu->counts.waits++;
     if (!opencl_ok(clFinish(gpu->queue), "clFinish", "the queue", gpu)) return false;
