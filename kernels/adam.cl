@@ -16,29 +16,9 @@
 // One work-item: ADAM_LANES numbers; a whole vector, so that the rare case costs one test for sixteen numbers and compilers have
 // nothing to guess. It runs at the speed of memory: 28 bytes a number. Local memory: none.
 // Reference: splat2d/adam.c. Test: tests/splat3d/test_opencl_adam.c.
-#include "adam_record.h"
+#include "adam_lanes.h"
 
 #pragma OPENCL FP_CONTRACT OFF
-
-static void note_not_finite(const AdamRecord *a, int first, int16 finite, __global volatile uint *not_finite) {
-    int lanes[ADAM_LANES];
-    vstore16(finite, 0, lanes);
-    for (int i = 0; i < ADAM_LANES; i++)
-        if (!lanes[i]) atomic_min(not_finite, (uint)((first + i) / a->width) << ADAM_FIELD_BITS | (uint)a->field);
-}
-
-// Sixteen numbers; returns which of them are finite (-1) and were changed.
-static int16 adam_step16(const AdamRecord *a, float16 g, float16 *x, float16 *m, float16 *v) {
-    const float16 new_m = fma((float16)(a->beta1), *m, a->one_minus_beta1 * g);
-    const float16 new_v = fma((float16)(a->beta2), *v, a->one_minus_beta2 * g * g);
-    const float16 size = fma(sqrt(new_v), (float16)(a->over_root_v_part), (float16)(a->epsilon));
-    const float16 new_x = fma((float16)(-a->rate), new_m / size, *x);
-    const int16 finite = isfinite(new_x) && isfinite(new_v); // g and m' cannot be otherwise unless one of these is too
-    *x = select(*x, new_x, finite);
-    *m = select(*m, new_m, finite);
-    *v = select(*v, new_v, finite);
-    return finite;
-}
 
 // Up to sixteen numbers at the end of a field, those beyond it 0.
 static float16 load_part(__global const float *p, int count) {
@@ -73,7 +53,7 @@ __kernel void adam(const AdamRecord a, __global const float *gradient, __global 
         store_part(new_value, value + first, left), store_part(new_m, m + first, left);
         store_part(new_v, v + first, left);
     }
-    if (!all(finite)) note_not_finite(&a, first, finite, not_finite);
+    if (!all_of(finite)) note_not_finite(&a, first, finite, not_finite);
 }
 
 // quat (N, 4): divided by its length; zero stays zero. One work-item: one splat.

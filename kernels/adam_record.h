@@ -1,4 +1,4 @@
-// adam_record.h - arguments of kernels/adam.cl, shared with splat3d/opencl_adam.c.
+// adam_record.h - arguments of kernels/adam.cl and of the step in kernels/project_backward.cl, shared with splat3d/opencl_adam.c.
 #ifndef SPLATLAB_KERNELS_ADAM_RECORD_H
 #define SPLATLAB_KERNELS_ADAM_RECORD_H
 
@@ -18,5 +18,22 @@ typedef struct {
     float over_root_v_part; // 1 / sqrt(1 - beta2^step)
     float epsilon;          // 1e-15
 } AdamRecord;
+
+// The fields of a splat, as GaussianFieldId numbers them.
+#define ADAM_MEAN          0
+#define ADAM_LOG_SCALE     1
+#define ADAM_QUAT          2
+#define ADAM_OPACITY_LOGIT 3
+#define ADAM_SH0           4
+#define ADAM_SH1           5
+#define ADAM_SH2           6
+#define ADAM_SH3           7
+#define ADAM_FIELDS        8
+
+// One step of all fields (project_backward.cl).
+typedef struct {
+    AdamRecord rule; // what all fields have in common; count, width, field and rate are filled in for each
+    float rate[ADAM_FIELDS];
+} AdamStepRecord;
 
 #endif

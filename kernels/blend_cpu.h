@@ -8,6 +8,7 @@
 #ifndef SPLATLAB_KERNELS_BLEND_CPU_H
 #define SPLATLAB_KERNELS_BLEND_CPU_H
 
+#include "conditions.h"
 #include "exp2_fast.h"
 
 #define BLOCKS_PER_ROW  (TILE_SIZE / BLOCK_SIZE)

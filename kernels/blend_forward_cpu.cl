@@ -47,7 +47,7 @@ static void blend_block(const float alpha_max, const uint *words, const ScreenSp
                         float16 y, BlockState *state) {
     float16 t = state->t, r = state->r, g = state->g, b = state->b;
     int16 last = state->last;
-    for (int word = 0; word < WORDS && any(t >= TRANSMITTANCE_STOP); word++) {
+    for (int word = 0; word < WORDS && any_of(t >= TRANSMITTANCE_STOP); word++) {
         uint bits = words[BLOCKS_PER_TILE * word];
         while (bits) {
             const int i = 32 * word + (int)clz(bits);
@@ -115,7 +115,7 @@ __kernel void blend_forward_cpu(const FrameRecord frame, __global const uint *st
             if (opaque >> block & 1) continue;
             blend_block(frame.alpha_max, words + block, staged, first, block_x(tile_x, block), block_y(tile_y, block),
                         &states[block]);
-            if (!any(states[block].t >= TRANSMITTANCE_STOP)) opaque |= 1u << block;
+            if (!any_of(states[block].t >= TRANSMITTANCE_STOP)) opaque |= 1u << block;
         }
     }
     store_tile(&frame, tile_x, tile_y, states, rgb, transmittance, last);

@@ -23,7 +23,7 @@
 #endif
 
 #define DEFINE_EXP2_FAST(NAME, FLOAT, INT)                                                                             \
-    static inline FLOAT NAME##_of_fraction(FLOAT f) {                                                                     \
+    static inline FLOAT NAME##_of_fraction(FLOAT f) {                                                                  \
         FLOAT p = fma((FLOAT)(0.00187757646f), f, (FLOAT)(0.00898933969f));                                            \
         p = fma(p, f, (FLOAT)(0.0558263138f));                                                                         \
         p = fma(p, f, (FLOAT)(0.240153611f));                                                                          \
@@ -32,7 +32,7 @@
     }                                                                                                                  \
     static inline FLOAT NAME##_portable(FLOAT x) {                                                                     \
         const FLOAT n = EXP2_FLOOR(x);                                                                                 \
-        return as_##FLOAT(as_##INT(NAME##_of_fraction(x - n)) + (convert_##INT(n) << 23));                                \
+        return as_##FLOAT(as_##INT(NAME##_of_fraction(x - n)) + (convert_##INT(n) << 23));                             \
     }
 
 DEFINE_EXP2_FAST(exp2_fast, float, int)

@@ -19,13 +19,26 @@
 //         above frame.sh_degree are left alone
 //     gradient_ndc, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
 //
+// With -D ADAM_STEP (and LANES 16) the kernel is project_backward_step: the gradients go to private arrays and from there through Adam
+// (adam.cl) at once: the same numbers as project_backward and adam one after the other, but 240 bytes a splat are neither
+// written nor read.
+//     m_*, v_*: Adam's moments, shapes as the fields; not_finite (1): as in adam.cl
+//
 // One work-item: LANES Gaussians (splat_lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
 // Reference: reference_project_backward(). Test: tests/splat3d/test_opencl_gradients.c.
 #include "shared.h"
 
+#ifdef ADAM_STEP
+#define OUT __private // gradients go to a private array, on their way to Adam
+#endif
+
 #include "projection.h"
 #include "sh_basis.h"
 #include "sh_field.h"
+
+#ifdef ADAM_STEP
+#include "adam_lanes.h"
+#endif
 
 // The sums of a PairGradient.
 typedef struct {
@@ -216,45 +229,122 @@ static Vec3 load_colours(int first, __global const ScreenSplat *screen) {
 #endif
 }
 
-__kernel void project_backward(const FrameRecord frame, __global const float *mean, __global const float *log_scale,
-                               __global const float *quat, __global const float *opacity_logit,
-                               __global const float *sh1, __global const float *sh2, __global const float *sh3,
-                               __global const ScreenSplat *screen, __global const TileBox *box,
-                               __global const uint *offset, __global const ushort *mask,
-                               __global const PairGradient *records, __global float *d_mean,
-                               __global float *d_log_scale, __global float *d_quat, __global float *d_opacity_logit,
-                               __global float *d_sh0, __global float *d_sh1, __global float *d_sh2,
-                               __global float *d_sh3, const int has_statistics, __global float *gradient_ndc,
-                               __global int *seen) {
-    const int first = (int)get_global_id(0) * LANES, end = frame.splat_count;
-    if (first >= end) return;
+typedef struct {
+    __global const float *mean, *log_scale, *quat, *opacity_logit, *sh1, *sh2, *sh3;
+} Model;
+
+// What the forward pass and the blend left of the splats.
+typedef struct {
+    __global const ScreenSplat *screen;
+    __global const TileBox *box;
+    __global const uint *offset;
+    __global const ushort *mask;
+    __global const PairGradient *records;
+} Drawn;
+
+typedef struct {
+    int is_kept;
+    __global float *gradient_ndc;
+    __global int *seen;
+} Statistics;
+
+// Where the gradients of a group go: pointers to its first splat.
+typedef struct {
+    OUT float *mean, *log_scale, *quat, *opacity_logit, *sh0, *sh1, *sh2, *sh3;
+} ModelGradient;
+
+// All gradients of the splats from `first` on.
+static void group_backward(const FrameRecord *frame, int first, Model model, Drawn drawn, Statistics statistics,
+                           ModelGradient out) {
+    const int end = frame->splat_count;
     const Real zero = (Real)(0.0f);
-    const Vec3 mean_world = lanes_load3(mean, first), nothing = vec3(zero, zero, zero);
+    const Vec3 mean_world = lanes_load3(model.mean, first), nothing = vec3(zero, zero, zero);
     Projection p;
     Gradient gradient = {nothing, nothing, {zero, zero, zero, zero}, zero, nothing, zero};
     Vec3 direction = nothing;
     Real inv_distance = zero;
-    Int visible = is_in_view(first, end, box);
+    Int visible = is_in_view(first, end, drawn.box);
     if (ANY(visible)) {
-        const Int can_be_drawn = projection_compute(&frame, mean_world, log_scale, quat, first, &p);
+        const Int can_be_drawn = projection_compute(frame, mean_world, model.log_scale, model.quat, first, &p);
         visible = visible && can_be_drawn; // the same again as in the forward pass
-        const Sums sums = sum_records(first, end, box, offset, mask, records);
-        gradient = splat_backward(&frame, &sums, load_colours(first, screen), lanes_load(opacity_logit, first), &p);
+        const Sums sums = sum_records(first, end, drawn.box, drawn.offset, drawn.mask, drawn.records);
+        gradient =
+            splat_backward(frame, &sums, load_colours(first, drawn.screen), lanes_load(model.opacity_logit, first), &p);
         keep_visible(visible, &gradient);
-        if (has_statistics) add_statistics(first, end, visible, gradient.d_mean_ndc, gradient_ndc, seen);
-        const Vec3 offset_world = vec3_sub(mean_world, vec3_all(frame.position));
+        if (statistics.is_kept)
+            add_statistics(first, end, visible, gradient.d_mean_ndc, statistics.gradient_ndc, statistics.seen);
+        const Vec3 offset_world = vec3_sub(mean_world, vec3_all(frame->position));
         inv_distance = select(zero, 1.0f / sqrt(vec3_dot(offset_world, offset_world)), visible);
         direction = vec3_where(visible, vec3_scale(offset_world, inv_distance));
     }
 
     Real basis[SH_BASIS], weight[SH_BASIS];
-    sh_basis(frame.sh_degree, direction, basis);
-    lanes_store3(vec3_scale(gradient.d_colour, (Real)(SH_C0)), d_sh0, first);
-    sh_colour_backward(frame.sh_degree, basis, gradient.d_colour, first, sh1, sh2, sh3, d_sh1, d_sh2, d_sh3, weight);
-    const Vec3 d_direction = sh_slope(frame.sh_degree, direction, weight);
+    sh_basis(frame->sh_degree, direction, basis);
+    lanes_store3(vec3_scale(gradient.d_colour, (Real)(SH_C0)), out.sh0, 0);
+    sh_colour_backward(frame->sh_degree, basis, gradient.d_colour, model.sh1 + 9 * first, model.sh2 + 15 * first,
+                       model.sh3 + 21 * first, out.sh1, out.sh2, out.sh3, weight);
+    const Vec3 d_direction = sh_slope(frame->sh_degree, direction, weight);
     const Vec3 across = vec3_sub(d_direction, vec3_scale(direction, vec3_dot(direction, d_direction)));
-    lanes_store3(vec3_add(gradient.d_mean, vec3_scale(across, inv_distance)), d_mean, first);
-    lanes_store3(gradient.d_log_scale, d_log_scale, first);
-    lanes_store4(gradient.d_quat, d_quat, first);
-    lanes_store(gradient.d_logit, d_opacity_logit, first);
+    lanes_store3(vec3_add(gradient.d_mean, vec3_scale(across, inv_distance)), out.mean, 0);
+    lanes_store3(gradient.d_log_scale, out.log_scale, 0);
+    lanes_store4(gradient.d_quat, out.quat, 0);
+    lanes_store(gradient.d_logit, out.opacity_logit, 0);
 }
+
+#ifndef ADAM_STEP
+
+__kernel void project_backward(const FrameRecord frame, __global const float *mean, __global const float *log_scale,
+                               __global const float *quat, __global const float *opacity_logit,
+                               __global const float *sh1, __global const float *sh2, __global const float *sh3,
+                               __global const ScreenSplat *screen, __global const TileBox *box,
+                               __global const uint *offset, __global const ushort *mask,
+                               __global const PairGradient *records, const int has_statistics,
+                               __global float *gradient_ndc, __global int *seen, __global float *d_mean,
+                               __global float *d_log_scale, __global float *d_quat, __global float *d_opacity_logit,
+                               __global float *d_sh0, __global float *d_sh1, __global float *d_sh2,
+                               __global float *d_sh3) {
+    const int first = (int)get_global_id(0) * LANES;
+    if (first >= frame.splat_count) return;
+    const Model model = {mean, log_scale, quat, opacity_logit, sh1, sh2, sh3};
+    const Drawn drawn = {screen, box, offset, mask, records};
+    const Statistics statistics = {has_statistics, gradient_ndc, seen};
+    const ModelGradient out = {d_mean + 3 * first, d_log_scale + 3 * first, d_quat + 4 * first, d_opacity_logit + first,
+                               d_sh0 + 3 * first,  d_sh1 + 9 * first,       d_sh2 + 15 * first, d_sh3 + 21 * first};
+    group_backward(&frame, first, model, drawn, statistics, out);
+}
+
+#else
+
+__kernel void project_backward_step(
+    const FrameRecord frame, __global float *mean, __global float *log_scale, __global float *quat,
+    __global float *opacity_logit, __global float *sh1, __global float *sh2, __global float *sh3,
+    __global const ScreenSplat *screen, __global const TileBox *box, __global const uint *offset,
+    __global const ushort *mask, __global const PairGradient *records, const int has_statistics,
+    __global float *gradient_ndc, __global int *seen, const AdamStepRecord adam, __global float *sh0,
+    __global float *m_mean, __global float *m_log_scale, __global float *m_quat, __global float *m_opacity_logit,
+    __global float *m_sh0, __global float *m_sh1, __global float *m_sh2, __global float *m_sh3, __global float *v_mean,
+    __global float *v_log_scale, __global float *v_quat, __global float *v_opacity_logit, __global float *v_sh0,
+    __global float *v_sh1, __global float *v_sh2, __global float *v_sh3, __global volatile uint *not_finite) {
+    const int first = (int)get_global_id(0) * LANES;
+    if (first >= frame.splat_count) return;
+    const Model model = {mean, log_scale, quat, opacity_logit, sh1, sh2, sh3};
+    const Drawn drawn = {screen, box, offset, mask, records};
+    const Statistics statistics = {has_statistics, gradient_ndc, seen};
+    float d_mean[3 * LANES], d_log_scale[3 * LANES], d_quat[4 * LANES], d_logit[LANES];
+    float d_sh0[3 * LANES], d_sh1[9 * LANES], d_sh2[15 * LANES], d_sh3[21 * LANES];
+    const ModelGradient out = {d_mean, d_log_scale, d_quat, d_logit, d_sh0, d_sh1, d_sh2, d_sh3};
+    const AdamGroup group = {&adam, first, frame.splat_count, not_finite};
+    group_backward(&frame, first, model, drawn, statistics, out);
+
+    adam_group_step(group, ADAM_MEAN, 3, d_mean, mean, m_mean, v_mean);
+    adam_group_step(group, ADAM_LOG_SCALE, 3, d_log_scale, log_scale, m_log_scale, v_log_scale);
+    adam_group_step(group, ADAM_QUAT, 4, d_quat, quat, m_quat, v_quat);
+    normalize_group(quat + 4 * first);
+    adam_group_step(group, ADAM_OPACITY_LOGIT, 1, d_logit, opacity_logit, m_opacity_logit, v_opacity_logit);
+    adam_group_step(group, ADAM_SH0, 3, d_sh0, sh0, m_sh0, v_sh0);
+    if (frame.sh_degree >= 1) adam_group_step(group, ADAM_SH1, 9, d_sh1, sh1, m_sh1, v_sh1);
+    if (frame.sh_degree >= 2) adam_group_step(group, ADAM_SH2, 15, d_sh2, sh2, m_sh2, v_sh2);
+    if (frame.sh_degree >= 3) adam_group_step(group, ADAM_SH3, 21, d_sh3, sh3, m_sh3, v_sh3);
+}
+
+#endif

@@ -35,7 +35,7 @@ static Vec3 sh_colour(int degree, const float *basis, int shown, int i, __global
 }
 
 static void sh_backward(int count, const float *basis, Vec3 d_colour, bool is_dark, __global const float *sh,
-                        __global float *d_sh, float *weight) {
+                        OUT float *d_sh, float *weight) {
     for (int k = 0; k < count; k++) {
         weight[k] = 0;
         if (!is_dark) { // else the coefficients need not be fetched
@@ -48,13 +48,14 @@ static void sh_backward(int count, const float *basis, Vec3 d_colour, bool is_da
 }
 
 // d_sh[k] = basis[k] d_colour, and weight[k] = sh[k] . d_colour, which the gradient of the direction wants; weight[SH_BASIS].
-static void sh_colour_backward(int degree, const float *basis, Vec3 d_colour, int i, __global const float *sh1,
-                               __global const float *sh2, __global const float *sh3, __global float *d_sh1,
-                               __global float *d_sh2, __global float *d_sh3, float *weight) {
+// sh1 to d_sh3: of this splat.
+static void sh_colour_backward(int degree, const float *basis, Vec3 d_colour, __global const float *sh1,
+                               __global const float *sh2, __global const float *sh3, OUT float *d_sh1, OUT float *d_sh2,
+                               OUT float *d_sh3, float *weight) {
     const bool is_dark = d_colour.x == 0 && d_colour.y == 0 && d_colour.z == 0;
-    if (degree >= 1) sh_backward(3, basis, d_colour, is_dark, sh1 + 9 * i, d_sh1 + 9 * i, weight);
-    if (degree >= 2) sh_backward(5, basis + 3, d_colour, is_dark, sh2 + 15 * i, d_sh2 + 15 * i, weight + 3);
-    if (degree >= 3) sh_backward(7, basis + 8, d_colour, is_dark, sh3 + 21 * i, d_sh3 + 21 * i, weight + 8);
+    if (degree >= 1) sh_backward(3, basis, d_colour, is_dark, sh1, d_sh1, weight);
+    if (degree >= 2) sh_backward(5, basis + 3, d_colour, is_dark, sh2, d_sh2, weight + 3);
+    if (degree >= 3) sh_backward(7, basis + 8, d_colour, is_dark, sh3, d_sh3, weight + 8);
 }
 
 #else
@@ -104,45 +105,46 @@ static inline float16 triplet_sums(float16 v) {
     return v + (float16)(v.s1234, v.s5678, v.s9abc, v.sdef, v.sf) + (float16)(v.s2345, v.s6789, v.sabcd, v.sef, v.sff);
 }
 
-static inline void store_9(float16 v, __global float *at) {
+static inline void store_9(float16 v, OUT float *at) {
     vstore8(v.lo, 0, at);
     at[8] = v.s8;
 }
 
-static inline void store_15(float16 v, __global float *at) {
+static inline void store_15(float16 v, OUT float *at) {
     vstore8(v.lo, 0, at);
     vstore4(v.s89ab, 0, at + 8);
     vstore3(v.scde, 0, at + 12);
 }
 
-static inline void store_6(float16 v, __global float *at) {
+static inline void store_6(float16 v, OUT float *at) {
     vstore4(v.s0123, 0, at);
     vstore2(v.s45, 0, at + 4);
 }
 
-// One splat: stores its gradients and returns the weights. b: its basis; d: its d_colour r g b r g b ...
-static inline float16 sh_splat_backward(int degree, float16 b, float16 d, bool is_dark, size_t i,
+// One splat of the group: stores its gradients and returns the weights. b: its basis; d: its d_colour r g b r g b ...
+static inline float16 sh_splat_backward(int degree, float16 b, float16 d, bool is_dark, int lane,
                                         __global const float *sh1, __global const float *sh2, __global const float *sh3,
-                                        __global float *d_sh1, __global float *d_sh2, __global float *d_sh3) {
-    store_9(SPREAD_SH1(b) * d, d_sh1 + 9 * i);
-    if (degree >= 2) store_15(SPREAD_SH2(b) * d, d_sh2 + 15 * i);
+                                        OUT float *d_sh1, OUT float *d_sh2, OUT float *d_sh3) {
+    store_9(SPREAD_SH1(b) * d, d_sh1 + 9 * lane);
+    if (degree >= 2) store_15(SPREAD_SH2(b) * d, d_sh2 + 15 * lane);
     if (degree >= 3) {
-        store_15(SPREAD_SH3A(b) * d, d_sh3 + 21 * i);
-        store_6(SPREAD_SH3B(b) * d, d_sh3 + 21 * i + 15);
+        store_15(SPREAD_SH3A(b) * d, d_sh3 + 21 * lane);
+        store_6(SPREAD_SH3B(b) * d, d_sh3 + 21 * lane + 15);
     }
     if (is_dark) return (float16)(0.0f); // the coefficients need not be fetched
     const float16 zero = (float16)(0.0f);
-    const float16 of1 = triplet_sums(d * sh_vector(sh1 + 9 * i, 9));
-    const float16 of2 = degree >= 2 ? triplet_sums(d * sh_vector(sh2 + 15 * i, 15)) : zero;
-    const float16 of3a = degree >= 3 ? triplet_sums(d * sh_vector(sh3 + 21 * i, 15)) : zero;
-    const float16 of3b = degree >= 3 ? triplet_sums(d * sh_vector(sh3 + 21 * i + 15, 6)) : zero;
+    const float16 of1 = triplet_sums(d * sh_vector(sh1 + 9 * lane, 9));
+    const float16 of2 = degree >= 2 ? triplet_sums(d * sh_vector(sh2 + 15 * lane, 15)) : zero;
+    const float16 of3a = degree >= 3 ? triplet_sums(d * sh_vector(sh3 + 21 * lane, 15)) : zero;
+    const float16 of3b = degree >= 3 ? triplet_sums(d * sh_vector(sh3 + 21 * lane + 15, 6)) : zero;
     return (float16)(of1.s036, of2.s0369, of2.sc, of3a.s0369, of3a.sc, of3b.s03, 0.0f);
 }
 
 // d_sh[k] = basis[k] d_colour, and weight[k] = sh[k] . d_colour, which the gradient of the direction wants; weight[SH_BASIS].
-static void sh_colour_backward(int degree, const float16 *basis, Vec3 d_colour, int first, __global const float *sh1,
-                               __global const float *sh2, __global const float *sh3, __global float *d_sh1,
-                               __global float *d_sh2, __global float *d_sh3, float16 *weight) {
+// sh1 to d_sh3: of the group's first splat.
+static void sh_colour_backward(int degree, const float16 *basis, Vec3 d_colour, __global const float *sh1,
+                               __global const float *sh2, __global const float *sh3, OUT float *d_sh1, OUT float *d_sh2,
+                               OUT float *d_sh3, float16 *weight) {
     if (degree == 0) return;
     float16 rows[LANES];
     float red[LANES], green[LANES], blue[LANES];
@@ -152,9 +154,8 @@ static void sh_colour_backward(int degree, const float16 *basis, Vec3 d_colour, 
     transpose16(rows);
     for (int lane = 0; lane < LANES; lane++) {
         const float r = red[lane], g = green[lane], b = blue[lane];
-        rows[lane] =
-            sh_splat_backward(degree, rows[lane], (float16)(r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r),
-                              r == 0 && g == 0 && b == 0, (size_t)(first + lane), sh1, sh2, sh3, d_sh1, d_sh2, d_sh3);
+        rows[lane] = sh_splat_backward(degree, rows[lane], (float16)(r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r),
+                                       r == 0 && g == 0 && b == 0, lane, sh1, sh2, sh3, d_sh1, d_sh2, d_sh3);
     }
     transpose16(rows);
     for (int k = 0; k < SH_BASIS; k++) weight[k] = rows[k];

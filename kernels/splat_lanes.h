@@ -13,6 +13,9 @@
 #ifndef LANES
 #define LANES 1
 #endif
+#ifndef OUT
+#define OUT __global // where the stores below go
+#endif
 
 #if LANES == 1
 
@@ -25,9 +28,11 @@ typedef int Int; // also a condition: 0 is false
 
 #else
 
+#include "conditions.h"
+
 typedef float16 Real;
 typedef int16 Int; // also a condition: 0 is false, -1 true
-#define ANY(condition)   any(condition)
+#define ANY(condition)   any_of(condition)
 #define INT_OF(real)     convert_int16(real)
 #define REAL_OF(integer) convert_float16(integer)
 #define LANE_NUMBERS     ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
@@ -86,29 +91,25 @@ static inline Vec3 vec3_all(const float *v) { return vec3((Real)(v[0]), (Real)(v
 #if LANES == 1
 
 static inline Real lanes_load(__global const float *field, int first) { return field[first]; }
-static inline void lanes_store(Real value, __global float *field, int first) { field[first] = value; }
+static inline void lanes_store(Real value, OUT float *field, int first) { field[first] = value; }
 
 static inline Vec3 lanes_load3(__global const float *field, int first) {
     const float3 v = vload3(first, field);
     return vec3(v.x, v.y, v.z);
 }
 
-static inline void lanes_store3(Vec3 v, __global float *field, int first) {
-    vstore3((float3)(v.x, v.y, v.z), first, field);
-}
+static inline void lanes_store3(Vec3 v, OUT float *field, int first) { vstore3((float3)(v.x, v.y, v.z), first, field); }
 
 static inline void lanes_load4(__global const float *field, int first, Real *out) {
     vstore4(vload4(first, field), 0, out);
 }
 
-static inline void lanes_store4(const Real *v, __global float *field, int first) {
-    vstore4(vload4(0, v), first, field);
-}
+static inline void lanes_store4(const Real *v, OUT float *field, int first) { vstore4(vload4(0, v), first, field); }
 
 #else
 
 static inline Real lanes_load(__global const float *field, int first) { return vload16(0, field + first); }
-static inline void lanes_store(Real value, __global float *field, int first) { vstore16(value, 0, field + first); }
+static inline void lanes_store(Real value, OUT float *field, int first) { vstore16(value, 0, field + first); }
 
 static inline Vec3 lanes_load3(__global const float *field, int first) {
     const float16 a = vload16(0, field + 3 * first), b = vload16(1, field + 3 * first),
@@ -119,7 +120,7 @@ static inline Vec3 lanes_load3(__global const float *field, int first) {
         (float16)(a.s2, a.s5, a.s8, a.sb, a.se, b.s1, b.s4, b.s7, b.sa, b.sd, c.s0, c.s3, c.s6, c.s9, c.sc, c.sf));
 }
 
-static inline void lanes_store3(Vec3 v, __global float *field, int first) {
+static inline void lanes_store3(Vec3 v, OUT float *field, int first) {
     const float16 x = v.x, y = v.y, z = v.z;
     vstore16((float16)(x.s0, y.s0, z.s0, x.s1, y.s1, z.s1, x.s2, y.s2, z.s2, x.s3, y.s3, z.s3, x.s4, y.s4, z.s4, x.s5),
              0, field + 3 * first);
@@ -138,7 +139,7 @@ static inline void lanes_load4(__global const float *field, int first, Real *out
     out[3] = (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
 }
 
-static inline void lanes_store4(const Real *v, __global float *field, int first) {
+static inline void lanes_store4(const Real *v, OUT float *field, int first) {
     const float16 a = v[0], b = v[1], c = v[2], d = v[3];
     vstore16((float16)(a.s0, b.s0, c.s0, d.s0, a.s1, b.s1, c.s1, d.s1, a.s2, b.s2, c.s2, d.s2, a.s3, b.s3, c.s3, d.s3),
              0, field + 4 * first);

@@ -2,7 +2,6 @@
 
 #include "splat3d/opencl_adam.h"
 
-#include "kernels/adam_record.h"
 #include "lab/base/mem.h"
 #include "splat2d/adam.h"
 
@@ -14,7 +13,8 @@ enum { GROUP = 64 }; // work-items
 _Static_assert(FIELD_COUNT <= 1 << ADAM_FIELD_BITS, "a field's number does not fit into the word that notes it");
 
 struct OpenclAdam {
-    GpuProgram *program;
+    Gpu *gpu;
+    GpuProgram *program; // from the first opencl_adam_step() on
     GpuKernel *adam, *normalize;
     GpuBuffer *not_finite; // one word, as in kernels/adam.cl
 };
@@ -26,9 +26,8 @@ static bool forget_noted(OpenclAdam *a) {
 
 bool opencl_adam_create(Gpu *gpu, OpenclAdam **adam) {
     OpenclAdam *a = mem_alloc(1, sizeof *a);
-    bool good = gpu_program_create(gpu, "adam.cl", "", &a->program) && gpu_kernel(a->program, "adam", &a->adam) &&
-                gpu_kernel(a->program, "normalize_quaternions", &a->normalize) &&
-                gpu_buffer_create(gpu, "Adam's note", sizeof(uint32_t), &a->not_finite) && forget_noted(a);
+    a->gpu = gpu;
+    bool good = gpu_buffer_create(gpu, "Adam's note", sizeof(uint32_t), &a->not_finite) && forget_noted(a);
     *adam = good ? a : NULL;
     if (!good) opencl_adam_destroy(a);
     return good;
@@ -40,6 +39,12 @@ void opencl_adam_destroy(OpenclAdam *adam) {
     gpu_program_destroy(adam->program);
     mem_free(adam);
 }
+
+_Static_assert((int)ADAM_MEAN == FIELD_MEAN && (int)ADAM_LOG_SCALE == FIELD_LOG_SCALE && (int)ADAM_QUAT == FIELD_QUAT &&
+                   (int)ADAM_OPACITY_LOGIT == FIELD_OPACITY_LOGIT && (int)ADAM_SH0 == FIELD_SH0 &&
+                   (int)ADAM_SH1 == FIELD_SH1 && (int)ADAM_SH2 == FIELD_SH2 && (int)ADAM_SH3 == FIELD_SH3 &&
+                   (int)ADAM_FIELDS == FIELD_COUNT,
+               "the kernels number the fields in another way");
 
 static AdamRecord adam_record(const AdamRule *rule, int step) {
     return (AdamRecord){
@@ -53,10 +58,16 @@ static AdamRecord adam_record(const AdamRule *rule, int step) {
     };
 }
 
+static bool create_kernels(OpenclAdam *a) {
+    return gpu_program_create(a->gpu, "adam.cl", "", &a->program) && gpu_kernel(a->program, "adam", &a->adam) &&
+           gpu_kernel(a->program, "normalize_quaternions", &a->normalize);
+}
+
 bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
                       const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v) {
     assert(step >= 1);
     assert(gradient->count == model->count && m->count == model->count && v->count == model->count);
+    if (!adam->program && !create_kernels(adam)) return false;
     for (int f = 0; f < FIELD_COUNT; f++) {
         if (GAUSSIAN_FIELDS[f].sh_degree > active_sh_degree || !model->field[f]) continue;
         AdamRule rule = adam_rule_default((double)learning_rate[f]);
@@ -72,6 +83,17 @@ bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIEL
     }
     return gpu_launch(adam->normalize, gpu_range((size_t)model->count, GROUP), gpu_int_arg(model->count),
                       gpu_buffer_arg(model->field[FIELD_QUAT]));
+}
+
+AdamStep opencl_adam_prepare(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], DeviceGaussians *m,
+                             DeviceGaussians *v) {
+    AdamStep s = {.m = m, .v = v, .not_finite = adam->not_finite};
+    for (int f = 0; f < FIELD_COUNT; f++) {
+        AdamRule rule = adam_rule_default((double)learning_rate[f]);
+        s.record.rule = adam_record(&rule, step);
+        s.record.rate[f] = s.record.rule.rate;
+    }
+    return s;
 }
 
 bool opencl_adam_check(OpenclAdam *adam, int *splat, GaussianFieldId *field) {

@@ -3,7 +3,8 @@
 #ifndef SPLATLAB_SPLAT3D_OPENCL_ADAM_H
 #define SPLATLAB_SPLAT3D_OPENCL_ADAM_H
 
-#include "splat3d/opencl_rasterizer.h"
+#include "kernels/adam_record.h"
+#include "splat3d/device_gaussians.h"
 
 typedef struct OpenclAdam OpenclAdam;
 
@@ -16,6 +17,15 @@ void opencl_adam_destroy(OpenclAdam *adam); // accepts NULL
 // value is not finite stays as it is, with its moments, and its splat is noted. Enqueues; does not wait.
 bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
                       const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v);
+
+// The same step for a kernel that does it right behind the gradients (opencl_project_step()).
+typedef struct {
+    AdamStepRecord record;
+    DeviceGaussians *m, *v;
+    GpuBuffer *not_finite; // one word: see kernels/adam.cl
+} AdamStep;
+AdamStep opencl_adam_prepare(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], DeviceGaussians *m,
+                             DeviceGaussians *v);
 
 // The lowest index of a splat that was noted by a step since the last call, and the first of its fields; *splat = -1 if
 // all was well. Waits for the device.

@@ -4,10 +4,12 @@
 
 #include "kernels/shared.h"
 #include "splat3d/device_gaussians.h"
+#include "splat3d/opencl_adam.h"
 
 typedef struct {
-    GpuProgram *forward_program, *backward_program;
-    GpuKernel *forward, *backward;
+    Gpu *gpu;
+    GpuProgram *forward_program, *backward_program, *step_program; // the last two from their first use on
+    GpuKernel *forward, *backward, *step;
     size_t lanes;      // splats of one work-item; buffers have room for whole groups of them
     GpuBuffer *screen; // (N) ScreenSplat; without meaning where the splat is not visible
     GpuBuffer *box;    // (N) TileBox, all zero where it is not visible
@@ -28,8 +30,19 @@ typedef struct {
     GpuBuffer *records; // (P) PairGradient
 } SplatRecords;
 
-// Enqueues; writes *gradient, and adds to gradient_ndc (N floats) and seen (N ints) unless they are NULL.
+// What density control needs to know of each splat, summed over steps; it divides one by the other.
+typedef struct {
+    GpuBuffer *gradient_ndc; // (N) floats: sum of |dL/d mean2d|, x in units of half the width, y of half the height
+    GpuBuffer *seen;         // (N) ints: how many views saw it
+} DensityStatistics;
+
+// Enqueues; writes *gradient, and adds to *statistics unless that is NULL.
 bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, const DeviceGaussians *model,
-                             SplatRecords records, DeviceGaussians *gradient, GpuBuffer *gradient_ndc, GpuBuffer *seen);
+                             SplatRecords records, const DensityStatistics *statistics, DeviceGaussians *gradient);
+
+// That and opencl_adam_step() at once, in two thirds of the time: the same numbers, but the gradients are never in memory. Enqueues; *model and the
+// moments change. Only where is_vectorised.
+bool opencl_project_step(OpenclProject *project, const FrameRecord *frame, DeviceGaussians *model, SplatRecords records,
+                         const DensityStatistics *statistics, const AdamStep *adam);
 
 #endif

@@ -19,10 +19,19 @@ struct OpenclRasterizer {
     bool has_frame;    // a frame was rendered and can be gone back
     FrameRecord frame; // of the last opencl_render()
 
-    // Copies for the interface, which takes models of the host; created when first used.
-    DeviceGaussians model, gradient;
+    // Created when first used.
+    DeviceGaussians gradient;
+    DeviceGaussians model; // a copy for the interface, which takes models of the host
     const Gaussians *held; // what `model` is a copy of, by rasterizer_hold(); borrowed, never looked into
 };
+
+// A gradient with the model's shape; its content means nothing.
+static bool reserve_gradient(OpenclRasterizer *r, const DeviceGaussians *model) {
+    if (r->gradient.field[FIELD_MEAN] && r->gradient.sh_degree == model->sh_degree)
+        return device_gaussians_resize(&r->gradient, model->count);
+    device_gaussians_destroy(&r->gradient);
+    return device_gaussians_create(r->gpu, "gradient", model->count, model->sh_degree, &r->gradient);
+}
 
 bool opencl_render(OpenclRasterizer *r, const DeviceGaussians *model, const Camera *camera,
                    const RenderSettings *settings) {
@@ -37,16 +46,36 @@ bool opencl_render(OpenclRasterizer *r, const DeviceGaussians *model, const Came
     return r->has_frame;
 }
 
-bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGaussians *gradient,
-                     DensityStatistics *statistics) {
+static SplatRecords records_of(const OpenclRasterizer *r) {
+    return (SplatRecords){r->binning.offset, r->binning.mask, r->blend.records};
+}
+
+static bool blend_backward(OpenclRasterizer *r, const DeviceGaussians *model) {
     assert(r->has_frame && model->count == r->frame.splat_count);
-    assert(gradient->count == model->count && gradient->sh_degree == model->sh_degree);
     gpu_stage(r->gpu, "blend_backward");
-    if (!opencl_blend_backward(&r->blend, &r->frame, &r->binning, r->project.screen)) return false;
+    return opencl_blend_backward(&r->blend, &r->frame, &r->binning, r->project.screen);
+}
+
+bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGaussians *gradient,
+                     const DensityStatistics *statistics) {
+    assert(gradient->count == model->count && gradient->sh_degree == model->sh_degree);
+    if (!blend_backward(r, model)) return false;
     gpu_stage(r->gpu, "project_backward");
-    const SplatRecords records = {r->binning.offset, r->binning.mask, r->blend.records};
-    return opencl_project_backward(&r->project, &r->frame, model, records, gradient,
-                                   statistics ? statistics->gradient_ndc : NULL, statistics ? statistics->seen : NULL);
+    return opencl_project_backward(&r->project, &r->frame, model, records_of(r), statistics, gradient);
+}
+
+bool opencl_backward_step(OpenclRasterizer *r, OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT],
+                          DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v,
+                          const DensityStatistics *statistics) {
+    if (r->project.lanes == 1) {
+        if (!reserve_gradient(r, model) || !opencl_backward(r, model, &r->gradient, statistics)) return false;
+        gpu_stage(r->gpu, "adam");
+        return opencl_adam_step(adam, step, learning_rate, r->frame.sh_degree, &r->gradient, model, m, v);
+    }
+    const AdamStep adam_step = opencl_adam_prepare(adam, step, learning_rate, m, v);
+    if (!blend_backward(r, model)) return false;
+    gpu_stage(r->gpu, "update");
+    return opencl_project_step(&r->project, &r->frame, model, records_of(r), statistics, &adam_step);
 }
 
 DevicePicture opencl_picture(OpenclRasterizer *r) {
@@ -103,10 +132,7 @@ static bool take_model(OpenclRasterizer *r, const Gaussians *model) {
     r->held = NULL;
     if (!r->model.field[FIELD_MEAN] || r->model.sh_degree != model->sh_degree) {
         device_gaussians_destroy(&r->model);
-        device_gaussians_destroy(&r->gradient);
-        if (!device_gaussians_create(r->gpu, "model", 0, model->sh_degree, &r->model) ||
-            !device_gaussians_create(r->gpu, "gradient", 0, model->sh_degree, &r->gradient))
-            return false;
+        if (!device_gaussians_create(r->gpu, "model", 0, model->sh_degree, &r->model)) return false;
     }
     return device_gaussians_write(&r->model, model);
 }
@@ -142,7 +168,7 @@ static bool write_d_rgb(OpenclRasterizer *r, const ImageF *d_rgb) {
 // A gradient of the model on the device: zeros, which stay where the backward pass leaves fields alone.
 static bool begin_gradient(OpenclRasterizer *r) {
     DeviceGaussians *gradient = &r->gradient;
-    if (!device_gaussians_resize(gradient, r->model.count)) return false;
+    if (!reserve_gradient(r, &r->model)) return false;
     for (int id = 0; id < FIELD_COUNT; id++)
         if (gradient->field[id] && !gpu_buffer_zero(gradient->field[id])) return false;
     return true;

@@ -7,14 +7,8 @@
 #define SPLATLAB_SPLAT3D_OPENCL_RASTERIZER_H
 
 #include "lab/gpu/gpu.h"
-#include "splat3d/device_gaussians.h"
+#include "splat3d/opencl_project.h"
 #include "splat3d/rasterizer.h"
-
-// What density control needs to know of each splat, summed over steps; it divides one by the other.
-typedef struct {
-    GpuBuffer *gradient_ndc; // (N) floats: sum of |dL/d mean2d|, x in units of half the width, y of half the height
-    GpuBuffer *seen;         // (N) ints: how many views saw it
-} DensityStatistics;
 
 // The shape of the kernels that have two: blend, projection, loss. AUTO: by the device's type.
 typedef enum { BLEND_AUTO, BLEND_CPU, BLEND_GPU } BlendKernels;
@@ -44,7 +38,13 @@ bool opencl_read_picture(OpenclRasterizer *r, Picture *picture); // to the host
 // Backward of the last opencl_render() of this model, unchanged since: *gradient gets every number written (zero for splats that were not
 // seen), except that fields above the rendered SH degree are left as they are. statistics may be NULL.
 bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGaussians *gradient,
-                     DensityStatistics *statistics);
+                     const DensityStatistics *statistics);
+
+// Backward and a step of Adam: what opencl_backward() and opencl_adam_step() do one after the other, bit by bit the same, but on a CPU device
+// in one kernel. model is that of the last opencl_render().
+bool opencl_backward_step(OpenclRasterizer *r, OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT],
+                          DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v,
+                          const DensityStatistics *statistics);
 
 // Counts of the last opencl_render(): splats in view, (tile, splat) pairs.
 typedef struct {

@@ -38,7 +38,7 @@ struct Trainer {
     OpenclRasterizer *rasterizer;
     OpenclLoss *loss;
     OpenclAdam *adam;
-    DeviceGaussians model, gradient, m, v;
+    DeviceGaussians model, m, v;
     DensityStatistics statistics;
 
     int steps_done;
@@ -97,7 +97,6 @@ static bool create_device_side(Trainer *t, BlendKernels blend) {
     int degree = t->options.sh_degree;
     return opencl_rasterizer_create(t->gpu, blend, &t->rasterizer) && opencl_loss_create(t->gpu, blend, &t->loss) &&
            opencl_adam_create(t->gpu, &t->adam) && device_gaussians_create(t->gpu, "model", 0, degree, &t->model) &&
-           device_gaussians_create(t->gpu, "gradient", 0, degree, &t->gradient) &&
            device_gaussians_create(t->gpu, "first moment", 0, degree, &t->m) &&
            device_gaussians_create(t->gpu, "second moment", 0, degree, &t->v) &&
            gpu_buffer_create(t->gpu, "density gradient", sizeof(float), &t->statistics.gradient_ndc) &&
@@ -144,7 +143,6 @@ void trainer_destroy(Trainer *t) {
     gpu_buffer_destroy(t->statistics.gradient_ndc);
     gpu_buffer_destroy(t->statistics.seen);
     device_gaussians_destroy(&t->model);
-    device_gaussians_destroy(&t->gradient);
     device_gaussians_destroy(&t->m);
     device_gaussians_destroy(&t->v);
     opencl_adam_destroy(t->adam);
@@ -196,7 +194,7 @@ bool trainer_set_state(Trainer *t, const TrainingState *s) {
         return fail("the state has SH degree %d, the options say %d; put sh_degree of options.json back",
                     s->model.sh_degree, t->options.sh_degree);
     bool done = device_gaussians_write(&t->model, &s->model) && device_gaussians_write(&t->m, &s->m) &&
-                device_gaussians_write(&t->v, &s->v) && device_gaussians_resize(&t->gradient, s->model.count) &&
+                device_gaussians_write(&t->v, &s->v) &&
                 gpu_buffer_reserve(t->statistics.gradient_ndc, n * sizeof *s->gradient_sum) &&
                 gpu_buffer_reserve(t->statistics.seen, n * sizeof *s->seen) &&
                 gpu_buffer_write(t->statistics.gradient_ndc, s->gradient_sum, n * sizeof *s->gradient_sum) &&
@@ -235,9 +233,7 @@ static bool descend(Trainer *t, int step, int view, StepReport *report) {
     gpu_stage(t->gpu, "loss");
     done = done && opencl_loss_run(t->loss, opencl_picture(t->rasterizer), shot->photo, settings.background,
                                    (float)t->options.dssim_weight);
-    done = done && opencl_backward(t->rasterizer, &t->model, &t->gradient, statistics);
-    gpu_stage(t->gpu, "adam");
-    done = done && opencl_adam_step(t->adam, step, rate, settings.sh_degree, &t->gradient, &t->model, &t->m, &t->v);
+    done = done && opencl_backward_step(t->rasterizer, t->adam, step, rate, &t->model, &t->m, &t->v, statistics);
     done = done && opencl_loss_read(t->loss, &report->loss) && opencl_adam_check(t->adam, &splat, &field);
     if (!done) return fail_context("step %d, view %s", step, t->views[view]->name);
     if (splat >= 0)

@@ -11,7 +11,8 @@
 #include <string.h>
 
 const char *const BENCH_STAGE_NAMES[BENCH_STAGE_COUNT + 1] = {
-    "project", "sort", "bin", "blend_forward", "loss", "blend_backward", "project_backward", "adam", "frame", "step",
+    "project",          "sort", "bin",    "blend_forward", "loss", "blend_backward",
+    "project_backward", "adam", "update", "frame",         "step",
 };
 
 static const float DSSIM_WEIGHT = 0.2f;
@@ -107,13 +108,23 @@ static bool run_adam(BenchStages *s) {
     return opencl_adam_step(s->adam, ++s->steps, rates, s->model.sh_degree, &s->gradient, &s->model, &s->m, &s->v);
 }
 
+// project_backward and adam as a step does them.
+static bool run_update(BenchStages *s, SplatRecords records) {
+    const float rates[FIELD_COUNT] = {0};
+    if (s->project.lanes == 1)
+        return opencl_project_backward(&s->project, &s->frame, &s->model, records, NULL, &s->gradient) && run_adam(s);
+    const AdamStep step = opencl_adam_prepare(s->adam, ++s->steps, rates, &s->m, &s->v);
+    return opencl_project_step(&s->project, &s->frame, &s->model, records, NULL, &step);
+}
+
 static bool run_step(BenchStages *s) {
+    const float rates[FIELD_COUNT] = {0};
     LossValues values;
     int splat;
     GaussianFieldId field;
     return opencl_render(s->rasterizer, &s->model, &s->camera, &s->settings) &&
            run_loss(s, opencl_picture(s->rasterizer)) &&
-           opencl_backward(s->rasterizer, &s->model, &s->gradient, NULL) && run_adam(s) &&
+           opencl_backward_step(s->rasterizer, s->adam, ++s->steps, rates, &s->model, &s->m, &s->v, NULL) &&
            opencl_loss_read(s->loss, &values) && opencl_adam_check(s->adam, &splat, &field);
 }
 
@@ -133,9 +144,11 @@ static bool enqueue(BenchStages *s, BenchStage stage) {
     case BENCH_BLEND_BACKWARD:
         return opencl_blend_backward(&s->blend, &s->frame, &s->binning, s->project.screen);
     case BENCH_PROJECT_BACKWARD:
-        return opencl_project_backward(&s->project, &s->frame, &s->model, records, &s->gradient, NULL, NULL);
+        return opencl_project_backward(&s->project, &s->frame, &s->model, records, NULL, &s->gradient);
     case BENCH_ADAM:
         return run_adam(s);
+    case BENCH_UPDATE:
+        return run_update(s, records);
     case BENCH_FRAME:
         return opencl_render(s->rasterizer, &s->model, &s->camera, &s->settings);
     case BENCH_STEP:
@@ -173,6 +186,9 @@ size_t bench_stages_bytes(const BenchStages *s, BenchStage stage) {
                (size_t)s->binning.slots * sizeof(uint16_t);
     case BENCH_ADAM:
         return 7 * n * learned;
+    case BENCH_UPDATE:
+        return n * (6 * learned + screen + sizeof(int)) + record_count(s) * sizeof(PairGradient) +
+               (size_t)s->binning.slots * sizeof(uint16_t);
     default:
         return 0;
     }

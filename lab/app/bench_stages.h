@@ -17,8 +17,9 @@ typedef enum {
     BENCH_BLEND_BACKWARD,
     BENCH_PROJECT_BACKWARD,
     BENCH_ADAM,
-    BENCH_FRAME, // one picture: project to blend forward
-    BENCH_STEP,  // one step of training, as the trainer does it
+    BENCH_UPDATE, // project_backward and adam at once, as a step has them on a CPU
+    BENCH_FRAME,  // one picture: project to blend forward
+    BENCH_STEP,   // one step of training, as the trainer does it
     BENCH_STAGE_COUNT
 } BenchStage;
 

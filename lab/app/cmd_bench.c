@@ -33,7 +33,7 @@ static const OptionField FIELDS[] = {
      .type = OPTION_TEXT,
      .offset = offsetof(Options, stage),
      .help = "only these, with commas: project, sort, bin, blend_forward, loss, blend_backward, project_backward, "
-             "adam, frame, step",
+             "adam, update (the last two at once), frame, step",
      .section = "What is measured"},
     {.name = "splats",
      .type = OPTION_INT,

@@ -10,8 +10,8 @@
 // An expectation: 100,000 splats of 3 px spread over 640 x 480 touch 5 tiles each; the boxes round them a few more.
 enum { TILES_PER_SPLAT = 5 };
 
-// Per splat: parameters, gradient and Adam's two moments.
-static size_t learned_bytes(int sh_degree) { return 4 * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree); }
+// Per splat: parameters and Adam's two moments. (A GPU has the gradients in memory as well.)
+static size_t learned_bytes(int sh_degree) { return 3 * sizeof(float) * (size_t)gaussians_floats_per_splat(sh_degree); }
 
 // Per splat: its place on the screen, its depth, the keys it is sorted by and its rank, id and density statistics; and a gradient
 // record, a mask and a list entry (splat, slot, mask) for each tile that it touches.

@@ -23,13 +23,13 @@ static void every_stage_is_timed_beside_its_ceiling(void **state) {
     CommandResult r =
         command_run("bench", "--json", "--splats", "2000", "--size", "96x64", "--rounds", "2", "--device", "cpu", NULL);
     json_t *root = parse(&r);
-    static const char *const NAMES[] = {"project",          "sort", "bin",   "blend_forward", "loss", "blend_backward",
-                                        "project_backward", "adam", "frame", "step"};
+    static const char *const NAMES[] = {"project",          "sort", "bin",    "blend_forward", "loss", "blend_backward",
+                                        "project_backward", "adam", "update", "frame",         "step"};
     const json_t *stages = json_object_get(root, "stages");
     const double evaluated = number(root, "evaluated_pairs");
-    assert_int_equal(json_array_size(stages), 10);
+    assert_int_equal(json_array_size(stages), 11);
     assert_true(number(root, "tile_pairs") < number(root, "tile_pairs_square"));
-    for (size_t k = 0; k < 10; k++) {
+    for (size_t k = 0; k < 11; k++) {
         const json_t *stage = json_array_get(stages, k);
         assert_string_equal(json_string_value(json_object_get(stage, "name")), NAMES[k]);
         assert_true(number(stage, "ms") > 0 && number(stage, "cpu_ms") > 0);

@@ -89,19 +89,19 @@ static void a_run_that_says_nothing_of_halved_pictures_used_none(void **state) {
     json_decref(root);
 }
 
-static void training_memory_is_944_bytes_a_splat_of_degree_3_and_more(void **state) {
+static void training_memory_is_708_bytes_a_splat_of_degree_3_and_more(void **state) {
     (void)state;
     CommandResult r = command_run("info", scene, "--json", "--memory", "--splats", "1000", NULL);
     command_expect(&r, 0);
     json_t *root = json_loads(r.out, 0, NULL);
     const json_t *memory = json_object_get(root, "training_memory");
-    assert_int_equal(integer(memory, "learned_per_splat_bytes"), 944);
+    assert_int_equal(integer(memory, "learned_per_splat_bytes"), 708);
     assert_int_equal(integer(memory, "photographs_bytes"), 48 * 32 * (4 * 7 + 3 * 2));
     assert_int_equal(integer(memory, "per_photograph_bytes"), integer(memory, "photographs_bytes") / LITTLE_VIEWS);
     assert_int_equal(integer(memory, "per_splat_bytes"), integer(memory, "learned_per_splat_bytes") +
                                                              integer(memory, "working_per_splat_bytes") +
                                                              integer(memory, "copied_per_splat_bytes"));
-    assert_true(integer(memory, "total_bytes") > 1000 * 944 + integer(memory, "photographs_bytes"));
+    assert_true(integer(memory, "total_bytes") > 1000 * 708 + integer(memory, "photographs_bytes"));
     assert_int_equal(integer(memory, "total_bytes"), integer(root, "training_memory_bytes"));
     json_decref(root);
 }
@@ -175,7 +175,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_is_counted),
         cmocka_unit_test(a_run_that_says_nothing_of_halved_pictures_used_none),
-        cmocka_unit_test(training_memory_is_944_bytes_a_splat_of_degree_3_and_more),
+        cmocka_unit_test(training_memory_is_708_bytes_a_splat_of_degree_3_and_more),
         cmocka_unit_test(a_model_is_counted_and_measured),
         cmocka_unit_test(a_run_shows_its_model_and_its_options),
         cmocka_unit_test(what_is_no_scene_and_no_model_fails_with_a_hint),
