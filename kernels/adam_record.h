@@ -8,7 +8,7 @@
 
 // A kernel argument by value. Every constant is computed in double precision and rounded once.
 typedef struct {
-    int count;             // numbers of the field: N x width
+    int splats;            // N
     int width;             // numbers of one splat
     int field;             // GaussianFieldId
     float beta1, beta2;    // 0.9, 0.999
@@ -32,7 +32,7 @@ typedef struct {
 
 // One step of all fields (project_backward.cl).
 typedef struct {
-    AdamRecord rule; // what all fields have in common; count, width, field and rate are filled in for each
+    AdamRecord rule; // what all fields have in common; splats, width, field and rate are filled in for each
     float rate[ADAM_FIELDS];
 } AdamStepRecord;
 

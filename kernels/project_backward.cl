@@ -19,18 +19,13 @@
 //         above frame.sh_degree are left alone
 //     gradient_ndc, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
 //
-// With -D ADAM_STEP (and LANES 16) the kernel is project_backward_step: the gradients go to private arrays and from there through Adam
-// (adam.cl) at once: the same numbers as project_backward and adam one after the other, but 240 bytes a splat are neither
+// With -D ADAM_STEP (and LANES 16) the kernel is project_backward_step: the gradients of a group go through Adam (adam.cl) at once: the same numbers as project_backward and adam one after the other, but 240 bytes a splat are neither
 // written nor read.
 //     m_*, v_*: Adam's moments, shapes as the fields; not_finite (1): as in adam.cl
 //
 // One work-item: LANES Gaussians (splat_lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.
 // Reference: reference_project_backward(). Test: tests/splat3d/test_opencl_gradients.c.
 #include "shared.h"
-
-#ifdef ADAM_STEP
-#define OUT __private // gradients go to a private array, on their way to Adam
-#endif
 
 #include "projection.h"
 #include "sh_basis.h"
@@ -248,28 +243,47 @@ typedef struct {
     __global int *seen;
 } Statistics;
 
-// Where the gradients of a group go: pointers to its first splat.
+// Of all parameters of the splats at hand.
 typedef struct {
-    OUT float *mean, *log_scale, *quat, *opacity_logit, *sh0, *sh1, *sh2, *sh3;
+    Real mean[3], log_scale[3], quat[4], opacity_logit, sh0[3], sh1[9], sh2[15], sh3[21];
 } ModelGradient;
 
+// Gradients of the coefficients of the colours, and of the means through the directions from which they are seen.
+static Vec3 colour_backward(const FrameRecord *frame, int first, Model model, Vec3 direction, Real inv_distance,
+                            Vec3 d_colour, ModelGradient *out) {
+    const int degree = frame->sh_degree;
+    const bool is_dark = !ANY(d_colour.x != 0 || d_colour.y != 0 || d_colour.z != 0);
+    Real basis[SH_BASIS], weight[SH_BASIS];
+    out->sh0[0] = SH_C0 * d_colour.x, out->sh0[1] = SH_C0 * d_colour.y, out->sh0[2] = SH_C0 * d_colour.z;
+    sh_basis(degree, direction, basis);
+    if (degree >= 1) sh_backward(3, basis, d_colour, is_dark, model.sh1 + lanes_at(first, 9), out->sh1, weight);
+    if (degree >= 2)
+        sh_backward(5, basis + 3, d_colour, is_dark, model.sh2 + lanes_at(first, 15), out->sh2, weight + 3);
+    if (degree >= 3)
+        sh_backward(7, basis + 8, d_colour, is_dark, model.sh3 + lanes_at(first, 21), out->sh3, weight + 8);
+    const Vec3 d_direction = sh_slope(degree, direction, weight);
+    const Vec3 across = vec3_sub(d_direction, vec3_scale(direction, vec3_dot(direction, d_direction)));
+    return vec3_scale(across, inv_distance);
+}
+
 // All gradients of the splats from `first` on.
-static void group_backward(const FrameRecord *frame, int first, Model model, Drawn drawn, Statistics statistics,
-                           ModelGradient out) {
+static void splats_backward(const FrameRecord *frame, int first, Model model, Drawn drawn, Statistics statistics,
+                            ModelGradient *out) {
     const int end = frame->splat_count;
     const Real zero = (Real)(0.0f);
-    const Vec3 mean_world = lanes_load3(model.mean, first), nothing = vec3(zero, zero, zero);
+    const Vec3 mean_world = lanes_load3(model.mean + lanes_at(first, 3), 0), nothing = vec3(zero, zero, zero);
     Projection p;
     Gradient gradient = {nothing, nothing, {zero, zero, zero, zero}, zero, nothing, zero};
     Vec3 direction = nothing;
     Real inv_distance = zero;
     Int visible = is_in_view(first, end, drawn.box);
     if (ANY(visible)) {
-        const Int can_be_drawn = projection_compute(frame, mean_world, model.log_scale, model.quat, first, &p);
+        const Int can_be_drawn = projection_compute(frame, mean_world, model.log_scale + lanes_at(first, 3),
+                                                    model.quat + lanes_at(first, 4), &p);
         visible = visible && can_be_drawn; // the same again as in the forward pass
         const Sums sums = sum_records(first, end, drawn.box, drawn.offset, drawn.mask, drawn.records);
-        gradient =
-            splat_backward(frame, &sums, load_colours(first, drawn.screen), lanes_load(model.opacity_logit, first), &p);
+        gradient = splat_backward(frame, &sums, load_colours(first, drawn.screen),
+                                  lanes_load(model.opacity_logit + first, 0), &p);
         keep_visible(visible, &gradient);
         if (statistics.is_kept)
             add_statistics(first, end, visible, gradient.d_mean_ndc, statistics.gradient_ndc, statistics.seen);
@@ -277,21 +291,23 @@ static void group_backward(const FrameRecord *frame, int first, Model model, Dra
         inv_distance = select(zero, 1.0f / sqrt(vec3_dot(offset_world, offset_world)), visible);
         direction = vec3_where(visible, vec3_scale(offset_world, inv_distance));
     }
-
-    Real basis[SH_BASIS], weight[SH_BASIS];
-    sh_basis(frame->sh_degree, direction, basis);
-    lanes_store3(vec3_scale(gradient.d_colour, (Real)(SH_C0)), out.sh0, 0);
-    sh_colour_backward(frame->sh_degree, basis, gradient.d_colour, model.sh1 + 9 * first, model.sh2 + 15 * first,
-                       model.sh3 + 21 * first, out.sh1, out.sh2, out.sh3, weight);
-    const Vec3 d_direction = sh_slope(frame->sh_degree, direction, weight);
-    const Vec3 across = vec3_sub(d_direction, vec3_scale(direction, vec3_dot(direction, d_direction)));
-    lanes_store3(vec3_add(gradient.d_mean, vec3_scale(across, inv_distance)), out.mean, 0);
-    lanes_store3(gradient.d_log_scale, out.log_scale, 0);
-    lanes_store4(gradient.d_quat, out.quat, 0);
-    lanes_store(gradient.d_logit, out.opacity_logit, 0);
+    const Vec3 through_colour = colour_backward(frame, first, model, direction, inv_distance, gradient.d_colour, out);
+    out->mean[0] = gradient.d_mean.x + through_colour.x;
+    out->mean[1] = gradient.d_mean.y + through_colour.y;
+    out->mean[2] = gradient.d_mean.z + through_colour.z;
+    out->log_scale[0] = gradient.d_log_scale.x;
+    out->log_scale[1] = gradient.d_log_scale.y;
+    out->log_scale[2] = gradient.d_log_scale.z;
+    for (int k = 0; k < 4; k++) out->quat[k] = gradient.d_quat[k];
+    out->opacity_logit = gradient.d_logit;
 }
 
 #ifndef ADAM_STEP
+
+static inline void store_gradient(int width, const Real *d, int first, __global float *field) {
+#pragma unroll
+    for (int k = 0; k < width; k++) lanes_store(d[k], field + lanes_at(first, width), k);
+}
 
 __kernel void project_backward(const FrameRecord frame, __global const float *mean, __global const float *log_scale,
                                __global const float *quat, __global const float *opacity_logit,
@@ -308,9 +324,16 @@ __kernel void project_backward(const FrameRecord frame, __global const float *me
     const Model model = {mean, log_scale, quat, opacity_logit, sh1, sh2, sh3};
     const Drawn drawn = {screen, box, offset, mask, records};
     const Statistics statistics = {has_statistics, gradient_ndc, seen};
-    const ModelGradient out = {d_mean + 3 * first, d_log_scale + 3 * first, d_quat + 4 * first, d_opacity_logit + first,
-                               d_sh0 + 3 * first,  d_sh1 + 9 * first,       d_sh2 + 15 * first, d_sh3 + 21 * first};
-    group_backward(&frame, first, model, drawn, statistics, out);
+    ModelGradient d;
+    splats_backward(&frame, first, model, drawn, statistics, &d);
+    store_gradient(3, d.mean, first, d_mean);
+    store_gradient(3, d.log_scale, first, d_log_scale);
+    store_gradient(4, d.quat, first, d_quat);
+    store_gradient(1, &d.opacity_logit, first, d_opacity_logit);
+    store_gradient(3, d.sh0, first, d_sh0);
+    if (frame.sh_degree >= 1) store_gradient(9, d.sh1, first, d_sh1);
+    if (frame.sh_degree >= 2) store_gradient(15, d.sh2, first, d_sh2);
+    if (frame.sh_degree >= 3) store_gradient(21, d.sh3, first, d_sh3);
 }
 
 #else
@@ -330,21 +353,19 @@ __kernel void project_backward_step(
     const Model model = {mean, log_scale, quat, opacity_logit, sh1, sh2, sh3};
     const Drawn drawn = {screen, box, offset, mask, records};
     const Statistics statistics = {has_statistics, gradient_ndc, seen};
-    float d_mean[3 * LANES], d_log_scale[3 * LANES], d_quat[4 * LANES], d_logit[LANES];
-    float d_sh0[3 * LANES], d_sh1[9 * LANES], d_sh2[15 * LANES], d_sh3[21 * LANES];
-    const ModelGradient out = {d_mean, d_log_scale, d_quat, d_logit, d_sh0, d_sh1, d_sh2, d_sh3};
-    const AdamGroup group = {&adam, first, frame.splat_count, not_finite};
-    group_backward(&frame, first, model, drawn, statistics, out);
+    ModelGradient d;
+    splats_backward(&frame, first, model, drawn, statistics, &d);
 
-    adam_group_step(group, ADAM_MEAN, 3, d_mean, mean, m_mean, v_mean);
-    adam_group_step(group, ADAM_LOG_SCALE, 3, d_log_scale, log_scale, m_log_scale, v_log_scale);
-    adam_group_step(group, ADAM_QUAT, 4, d_quat, quat, m_quat, v_quat);
+    const AdamGroup group = {&adam, first, frame.splat_count, not_finite};
+    adam_group_step(group, ADAM_MEAN, 3, d.mean, mean, m_mean, v_mean);
+    adam_group_step(group, ADAM_LOG_SCALE, 3, d.log_scale, log_scale, m_log_scale, v_log_scale);
+    adam_group_step(group, ADAM_QUAT, 4, d.quat, quat, m_quat, v_quat);
     normalize_group(quat + 4 * first);
-    adam_group_step(group, ADAM_OPACITY_LOGIT, 1, d_logit, opacity_logit, m_opacity_logit, v_opacity_logit);
-    adam_group_step(group, ADAM_SH0, 3, d_sh0, sh0, m_sh0, v_sh0);
-    if (frame.sh_degree >= 1) adam_group_step(group, ADAM_SH1, 9, d_sh1, sh1, m_sh1, v_sh1);
-    if (frame.sh_degree >= 2) adam_group_step(group, ADAM_SH2, 15, d_sh2, sh2, m_sh2, v_sh2);
-    if (frame.sh_degree >= 3) adam_group_step(group, ADAM_SH3, 21, d_sh3, sh3, m_sh3, v_sh3);
+    adam_group_step(group, ADAM_OPACITY_LOGIT, 1, &d.opacity_logit, opacity_logit, m_opacity_logit, v_opacity_logit);
+    adam_group_step(group, ADAM_SH0, 3, d.sh0, sh0, m_sh0, v_sh0);
+    if (frame.sh_degree >= 1) adam_group_step(group, ADAM_SH1, 9, d.sh1, sh1, m_sh1, v_sh1);
+    if (frame.sh_degree >= 2) adam_group_step(group, ADAM_SH2, 15, d.sh2, sh2, m_sh2, v_sh2);
+    if (frame.sh_degree >= 3) adam_group_step(group, ADAM_SH3, 21, d.sh3, sh3, m_sh3, v_sh3);
 }
 
 #endif

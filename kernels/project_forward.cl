@@ -8,7 +8,7 @@
 //     m^2 <= 2 ln(opacity / ALPHA_MIN),   half width = m sqrt(Sigma'_xx),   half height = m sqrt(Sigma'_yy)
 //
 //     mean (N,3), log_scale (N,3), quat (N,4), opacity_logit (N), sh0 (N,1,3), sh1 (N,3,3), sh2 (N,5,3), sh3 (N,7,3):
-//         the model; degrees above frame.sh_degree are not read
+//         the model, in groups of sixteen splats (splat_lanes.h); degrees above frame.sh_degree are not read
 //     screen (N): the splat; without meaning when it is not visible
 //     box (N): its tiles, all zero when it is not visible
 //     depth (N): camera z, world units; without meaning when it is not visible
@@ -38,16 +38,15 @@ static Int tile_range(Real centre, Real half_extent, int pixels, Int *first, Int
 }
 
 // Of splats in view; their covariance is in p.
-static Vec3 colour_of(const FrameRecord *frame, const Projection *p, Vec3 mean_world, Int visible, int first,
-                      __global const float *sh0, __global const float *sh1, __global const float *sh2,
-                      __global const float *sh3) {
+static Vec3 colour_of(const FrameRecord *frame, const Projection *p, Vec3 mean_world, __global const float *sh0,
+                      __global const float *sh1, __global const float *sh2, __global const float *sh3) {
     const Real zero = (Real)(0.0f);
     if (frame->is_depth) return vec3(p->point.z, zero + 1.0f, zero);
     const Vec3 offset = vec3_sub(mean_world, vec3_all(frame->position));
     Real basis[SH_BASIS];
     sh_basis(frame->sh_degree, vec3_scale(offset, 1.0f / sqrt(vec3_dot(offset, offset))), basis);
-    const Vec3 higher = sh_colour(frame->sh_degree, basis, visible, first, sh1, sh2, sh3);
-    const Vec3 dc = lanes_load3(sh0, first);
+    const Vec3 higher = sh_colour(frame->sh_degree, basis, sh1, sh2, sh3);
+    const Vec3 dc = lanes_load3(sh0, 0);
     return vec3(max(SH_C0 * dc.x + 0.5f + higher.x, zero), max(SH_C0 * dc.y + 0.5f + higher.y, zero),
                 max(SH_C0 * dc.z + 0.5f + higher.z, zero));
 }
@@ -94,11 +93,11 @@ __kernel void project_forward(const FrameRecord frame, __global const float *mea
     Int tiles[4] = {(Int)(0), (Int)(0), (Int)(0), (Int)(0)};
     for (int k = 0; k < NUMBERS; k++) splat[k] = (Real)(0.0f);
 
-    const Vec3 mean_world = lanes_load3(mean, first);
-    const Real log2_opacity = -log2(1.0f + exp(-lanes_load(opacity_logit, first)));
+    const Vec3 mean_world = lanes_load3(mean + lanes_at(first, 3), 0);
+    const Real log2_opacity = -log2(1.0f + exp(-lanes_load(opacity_logit + first, 0)));
     const Real reach2 = 2.0f / LOG2_E * (log2_opacity - LOG2_ALPHA_MIN); // m^2 where alpha = ALPHA_MIN
     Projection p;
-    Int visible = projection_compute(&frame, mean_world, log_scale, quat, first, &p);
+    Int visible = projection_compute(&frame, mean_world, log_scale + lanes_at(first, 3), quat + lanes_at(first, 4), &p);
     visible = visible && reach2 >= 0 && LANE_NUMBERS + first < (Int)(frame.splat_count);
     if (ANY(visible)) {
         const Real inv_z = 1.0f / p.point.z;
@@ -118,9 +117,10 @@ __kernel void project_forward(const FrameRecord frame, __global const float *mea
         for (int k = 0; k < 4; k++) tiles[k] = select((Int)(0), tiles[k], visible);
     }
     if (ANY(visible)) {
-        const Vec3 colour = colour_of(&frame, &p, mean_world, visible, first, sh0, sh1, sh2, sh3);
+        const Vec3 colour = colour_of(&frame, &p, mean_world, sh0 + lanes_at(first, 3), sh1 + lanes_at(first, 9),
+                                      sh2 + lanes_at(first, 15), sh3 + lanes_at(first, 21));
         splat[6] = colour.x, splat[7] = colour.y, splat[8] = colour.z;
-        lanes_store(p.point.z, depth, first);
+        lanes_store(p.point.z, depth + first, 0);
     }
     store_splats(splat, tiles, first, screen, box);
 }

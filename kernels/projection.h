@@ -70,27 +70,27 @@ static inline void projection_covariance(Projection *p, float low_pass_px2) {
     p->shear = -p->xy * p->inv_var_v;
 }
 
-// The field's quaternions (w x y z), normalised; false where they have no direction.
-static inline Int projection_quaternion(__global const float *quat, int first, Projection *p) {
+// Their quaternions (w x y z), normalised; false where they have no direction.
+static inline Int projection_quaternion(__global const float *quat, Projection *p) {
     Real *q = p->quat;
-    lanes_load4(quat, first, q);
+    for (int k = 0; k < 4; k++) q[k] = lanes_load(quat, k);
     p->quat_length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     const Real inverse = 1.0f / p->quat_length;
     for (int k = 0; k < 4; k++) q[k] *= inverse;
     return p->quat_length > QUAT_LENGTH_MIN && isfinite(p->quat_length);
 }
 
-// mean: of the splats from `first` on, world; log_scale (N,3), quat (N,4): the fields. False for those that cannot be drawn: nearer than the
+// mean: of the splats, world; log_scale, quat: where their numbers begin (lanes_at()). False for those that cannot be drawn: nearer than the
 // near plane, a quaternion of length 0, a covariance that has no inverse or does not fit a float.
 static inline Int projection_compute(const FrameRecord *frame, Vec3 mean, __global const float *log_scale,
-                                     __global const float *quat, int first, Projection *p) {
+                                     __global const float *quat, Projection *p) {
     const Vec3 w0 = frame_rotation_row(frame, 0), w1 = frame_rotation_row(frame, 1), w2 = frame_rotation_row(frame, 2);
     p->point = vec3_add(rows_apply(w0, w1, w2, mean), vec3_all(frame->translation));
     const Int in_front = p->point.z >= frame->near_depth;
     if (!ANY(in_front)) return in_front;
-    const Int has_direction = projection_quaternion(quat, first, p);
+    const Int has_direction = projection_quaternion(quat, p);
     projection_rotation(p);
-    const Vec3 log_of_scale = lanes_load3(log_scale, first);
+    const Vec3 log_of_scale = lanes_load3(log_scale, 0);
     p->scale = vec3(exp(log_of_scale.x), exp(log_of_scale.y), exp(log_of_scale.z));
 
     const Real inv_z = 1.0f / p->point.z;

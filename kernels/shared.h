@@ -17,6 +17,9 @@
 #define NEAR_DEPTH         0.2f            // world units; nearer splats are not drawn
 #define FRUSTUM_MARGIN     0.3f // J is evaluated at most 0.3 * half the image's width (height) outside the image
 
+// ---- the model on the device: groups of sixteen splats; of a group all first numbers, then all second ones, ... ----
+#define SPLAT_GROUP 16
+
 // ---- spherical harmonics: real basis, degree d has 2d + 1 functions ----
 #define SH_DEGREE_MAX       3
 #define SH_COEFFICIENTS_MAX 16 // (SH_DEGREE_MAX + 1)^2, per colour channel

@@ -1,4 +1,6 @@
 // device_gaussians.h - Gaussians on an OpenCL device: parameters, their gradients, or Adam's moments (all have the same shape).
+//
+// A field lies in groups of SPLAT_GROUP splats: of a group all first numbers, then all second ones, ... (kernels/splat_lanes.h).
 #ifndef SPLATLAB_SPLAT3D_DEVICE_GAUSSIANS_H
 #define SPLATLAB_SPLAT3D_DEVICE_GAUSSIANS_H
 
@@ -8,7 +10,7 @@
 typedef struct {
     int count;
     int sh_degree;
-    GpuBuffer *field[FIELD_COUNT]; // (N, width) floats, with room for whole groups of lanes; NULL above sh_degree
+    GpuBuffer *field[FIELD_COUNT]; // floats, width of each splat, in whole groups; NULL above sh_degree
 } DeviceGaussians;
 
 // what: "model", "gradient"; stands in messages before the field's name. All numbers are zero.

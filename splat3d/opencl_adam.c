@@ -67,21 +67,22 @@ bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIEL
                       const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v) {
     assert(step >= 1);
     assert(gradient->count == model->count && m->count == model->count && v->count == model->count);
+    const size_t groups = ((size_t)model->count + ADAM_LANES - 1) / ADAM_LANES;
     if (!adam->program && !create_kernels(adam)) return false;
     for (int f = 0; f < FIELD_COUNT; f++) {
         if (GAUSSIAN_FIELDS[f].sh_degree > active_sh_degree || !model->field[f]) continue;
         AdamRule rule = adam_rule_default((double)learning_rate[f]);
         AdamRecord record = adam_record(&rule, step);
         record.width = GAUSSIAN_FIELDS[f].width;
-        record.count = model->count * record.width;
+        record.splats = model->count;
         record.field = f;
-        size_t items = ((size_t)record.count + ADAM_LANES - 1) / ADAM_LANES;
-        if (!gpu_launch(adam->adam, gpu_range(items, GROUP), gpu_record_arg(&record, sizeof record),
-                        gpu_buffer_arg(gradient->field[f]), gpu_buffer_arg(model->field[f]),
-                        gpu_buffer_arg(m->field[f]), gpu_buffer_arg(v->field[f]), gpu_buffer_arg(adam->not_finite)))
+        if (!gpu_launch(adam->adam, gpu_range(groups * (size_t)record.width, GROUP),
+                        gpu_record_arg(&record, sizeof record), gpu_buffer_arg(gradient->field[f]),
+                        gpu_buffer_arg(model->field[f]), gpu_buffer_arg(m->field[f]), gpu_buffer_arg(v->field[f]),
+                        gpu_buffer_arg(adam->not_finite)))
             return false;
     }
-    return gpu_launch(adam->normalize, gpu_range((size_t)model->count, GROUP), gpu_int_arg(model->count),
+    return gpu_launch(adam->normalize, gpu_range(groups, GROUP), gpu_int_arg(model->count),
                       gpu_buffer_arg(model->field[FIELD_QUAT]));
 }
 
