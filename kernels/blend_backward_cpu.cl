@@ -13,8 +13,8 @@
 //
 //     start (tiles + 1), list_splat, list_slot, list_mask (pairs), screen (N), transmittance, last (tiles, 16, 16): of the forward pass
 //     d_rgb (3, rows, stride): d loss / d picture, zero in the padding
-//     records (P): at list_slot of each entry that is not behind the tile's last blended splat
-//     mask_of_slot (P): of tile_masks.cl; set to 0, "there is no record", for the entries behind it
+//     records (P): at list_slot of each entry that has a block in which it is not behind the last blended splat
+//     mask_of_slot (P): of tile_masks.cl; set to 0, "there is no record", for the other entries
 //
 // One work-item: one tile (group 1 x 1), splats outside, blocks of their mask inside, the nine sums in registers.
 // Local memory: none; about 6 KB of private arrays. Reference: splat3d/reference_blend.c. Test: tests/splat3d/test_opencl_gradients.c.
@@ -167,10 +167,15 @@ __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *s
             PREFETCH(screen + list_splat[begin + index - ENTRIES_AHEAD]);
             PREFETCH(records + list_slot[begin + index - ENTRIES_AHEAD]);
         }
+        uint bits = list_mask[begin + index] & begun;
+        if (!bits) { // hidden behind opaque blocks
+            mask_of_slot[list_slot[begin + index]] = 0;
+            continue;
+        }
         const ScreenSplat splat = screen[list_splat[begin + index]];
         PairSums sums;
         sums.w = sums.wu = sums.wv = sums.wuu = sums.wuv = sums.wvv = sums.r = sums.g = sums.b = (float16)(0);
-        for (uint bits = list_mask[begin + index] & begun; bits; bits &= bits - 1) {
+        for (; bits; bits &= bits - 1) {
             const int block = 31 - (int)clz(bits & -bits);
             unblend_block(frame.alpha_max, &splat, index, x[block % BLOCKS_PER_ROW], y[block / BLOCKS_PER_ROW],
                           &states[block], &sums);

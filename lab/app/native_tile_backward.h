@@ -107,10 +107,15 @@ static void backward_tile(const NativeBlend *blend, int tile) {
             __builtin_prefetch(&blend->screen[blend->list_splat[entry - ENTRIES_AHEAD]]);
             __builtin_prefetch(&blend->records[blend->list_slot[entry - ENTRIES_AHEAD]]);
         }
+        uint32_t bits = blend->list_mask[entry] & begun;
+        if (!bits) {
+            blend->mask_of_slot[blend->list_slot[entry]] = 0;
+            continue;
+        }
         const ScreenSplat splat = blend->screen[blend->list_splat[entry]];
         const Lanes zero = lanes_all(0);
         PairSums sums = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
-        for (uint32_t bits = blend->list_mask[entry] & begun; bits; bits &= bits - 1) {
+        for (; bits; bits &= bits - 1) {
             const int block = __builtin_ctz(bits);
             unblend_lanes(blend->frame.alpha_max, &splat, index, centres.x[block], centres.y[block], &states[block],
                           &sums);
