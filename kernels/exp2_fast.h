@@ -9,13 +9,14 @@
 #ifndef SPLATLAB_KERNELS_EXP2_FAST_H
 #define SPLATLAB_KERNELS_EXP2_FAST_H
 
-#ifdef __has_builtin
+#if defined(POCL_DEVICE_ADDRESS_BITS) &&                                                                               \
+    !defined(__NVPTX__) // PoCL on a CPU: its compiler is clang, its floor() a call for each lane
 #if __has_builtin(__builtin_elementwise_floor)
-#define EXP2_FLOOR(x) __builtin_elementwise_floor(x) // PoCL's floor() is a call for each lane
+#define EXP2_FLOOR(x) __builtin_elementwise_floor(x)
 #endif
 #if defined(__AVX512DQ__) && __has_builtin(__builtin_ia32_reduceps512_mask) &&                                         \
     __has_builtin(__builtin_ia32_scalefps512_mask)
-#define EXP2_AVX512
+#define CPU_IS_AVX512
 #endif
 #endif
 #ifndef EXP2_FLOOR
@@ -41,7 +42,7 @@ DEFINE_EXP2_FAST(exp2_fast16, float16, int16)
 static inline float exp2_fast(float x) { return exp2_fast_portable(x); }
 
 static inline float16 exp2_fast16(float16 x) {
-#ifdef EXP2_AVX512
+#ifdef CPU_IS_AVX512
     const float16 f = __builtin_ia32_reduceps512_mask(x, 1, x, (ushort)-1, 4);
     return __builtin_ia32_scalefps512_mask(exp2_fast16_of_fraction(f), x, x, (ushort)-1, 4);
 #else
