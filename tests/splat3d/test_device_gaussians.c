@@ -1,5 +1,6 @@
 #include "splat3d/device_gaussians.h"
 
+#include "kernels/shared.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/support.h"
 
@@ -41,6 +42,32 @@ static void a_model_comes_back_as_it_was_written(void **state) {
     }
 }
 
+static void groups_and_their_ends_keep_every_number(void **state) {
+    const int counts[] = {1, 15, 16, 17, 33000};
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        const int n = counts[c];
+        Gaussians model = gaussians_create(n, SH_DEGREE_MAX), back;
+        DeviceGaussians device;
+        for (int id = 0; id < FIELD_COUNT; id++)
+            for (int k = 0; k < n * GAUSSIAN_FIELDS[id].width; k++) model.field[id][k] = (float)(k + id);
+        assert_true(device_gaussians_create(*state, "model", 0, SH_DEGREE_MAX, &device));
+        assert_true(device_gaussians_write(&device, &model) && device_gaussians_read(&device, &back));
+        for (int id = 0; id < FIELD_COUNT; id++)
+            assert_memory_equal(back.field[id], model.field[id],
+                                (size_t)n * (size_t)GAUSSIAN_FIELDS[id].width * sizeof(float));
+        // The layout that kernels/splat_lanes.h describes: number k of splat i.
+        void *mapped;
+        assert_true(gpu_buffer_map(device.field[FIELD_SH2], GPU_READ, &mapped));
+        const float *sh2 = mapped;
+        const int i = n - 1, k = 7, at = i / SPLAT_GROUP * SPLAT_GROUP * 15 + k * SPLAT_GROUP + i % SPLAT_GROUP;
+        assert_true(sh2[at] == gaussians_at(&model, FIELD_SH2, i)[k]);
+        assert_true(gpu_buffer_unmap(device.field[FIELD_SH2]));
+        gaussians_destroy(&back);
+        gaussians_destroy(&model);
+        device_gaussians_destroy(&device);
+    }
+}
+
 static void a_new_one_is_zero_and_an_empty_one_is_allowed(void **state) {
     DeviceGaussians device;
     Gaussians back;
@@ -60,6 +87,7 @@ static void a_new_one_is_zero_and_an_empty_one_is_allowed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_model_comes_back_as_it_was_written),
+        cmocka_unit_test(groups_and_their_ends_keep_every_number),
         cmocka_unit_test(a_new_one_is_zero_and_an_empty_one_is_allowed),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
