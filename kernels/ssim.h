@@ -4,12 +4,13 @@
 
 #include "shared.h"
 
-#define SSIM_STRIP_WIDTH  16 // px; what one work-item does: one float16 ...
-#define SSIM_STRIP_HEIGHT 32 // px; ... down this many rows of one colour channel
-#define SSIM_BAND_HEIGHT  48 // px; rows of one channel that one work-item of ssim_cpu.cl does
-#define SSIM_MAPS         3  // derivatives of SSIM by the local mean, variance and covariance
-#define SSIM_MARGIN       16 // zeros left and right of each row of a map
-#define SSIM_SUMS         3  // what a work-item sums: |difference|, squared difference, SSIM
+#define SSIM_STRIP_WIDTH  16   // px; what one work-item does: one float16 ...
+#define SSIM_STRIP_HEIGHT 32   // px; ... down this many rows of one colour channel
+#define SSIM_PANEL_WIDTH  1024 // px; what one work-item of ssim_cpu.cl does of one channel, at most: these columns ...
+#define SSIM_PANEL_HEIGHT 86   // px; ... of these rows; 16 n - 2 SSIM_RADIUS, which n walks along 16 rows do
+#define SSIM_MAPS         3    // derivatives of SSIM by the local mean, variance and covariance, scaled: ssim_formula.h
+#define SSIM_MARGIN       16   // zeros left and right of each row of a map
+#define SSIM_SUMS         3    // what a work-item sums: |difference|, squared difference, SSIM
 
 // A kernel argument by value.
 typedef struct {

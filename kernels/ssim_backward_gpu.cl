@@ -1,8 +1,8 @@
 // ssim_backward_gpu.cl - gradient of (1 - lambda) L1 + lambda (1 - SSIM) by the picture, for GPUs.
 //
 //     d loss / d x = l1_scale sign(x - y) + ssim_scale (w * a + 2 x (w * b) + y (w * c))
-// with a, b, c the maps that ssim_forward_gpu.cl left (derivatives of SSIM by w * x, w * x^2, w * (x y)), and x, y
-// beside b and c less SSIM_SHIFT as there. The picture is not clipped. (splat2d/loss.c, the C reference, derives it.)
+// with a, b, c the derivatives of SSIM by w * x, w * x^2, w * (x y), which ssim_forward_gpu.cl left as a / 2, -b, c / 2, and x, y
+// less SSIM_SHIFT as there. The picture is not clipped. (splat2d/loss.c, the C reference, derives it.)
 //
 //     picture (3, rows, stride), photo (height, stride) RGBA bytes, maps (SSIM_MAPS, 3, rows, stride + 2 SSIM_MARGIN)
 //     d_picture (3, rows, stride): written everywhere, 0 right of width and below height
@@ -72,7 +72,8 @@ __kernel void ssim_backward_gpu(const SsimRecord s, __global const float *pictur
                 PREFETCH(photo + y_ahead * s.stride + x);
                 const float16 value = ssim_picture16(picture + row, x, &s);
                 const float16 truth = ssim_photo16(photo + y_out * s.stride, x, &s, channel);
-                gradient = select(gradient, gradient16(&s, ring + slot + 1, value, truth), inside);
+                gradient =
+                    select(gradient, gradient16(&s, ring + slot + 1, value - SSIM_SHIFT, truth - SSIM_SHIFT), inside);
             }
             *(__global float16 *)(d_picture + row + x) = gradient;
         }

@@ -2,8 +2,8 @@
 //
 //     SSIM = (2 mx my + C1) (2 cov + C2) / ((mx^2 + my^2 + C1) (vx + vy + C2))          (Wang et al. 2004, eq. 13)
 //     mx = w * x,  vx = w * x^2 - mx^2,  cov = w * (x y) - mx my;   w: Gaussian, 11 x 11, zero padded
-// per channel; then the derivatives of SSIM by mx (in which vx and cov follow), w * x^2 and w * (x y), which
-// ssim_backward_gpu.cl blurs again. Formulas: splat2d/loss.c (the C reference).
+// per channel; then the derivatives of SSIM by mx (in which vx and cov follow), w * x^2 and w * (x y), times
+// 1/2, -1 and 1/2, which ssim_backward_gpu.cl blurs again. Formulas: splat2d/loss.c (the C reference).
 //
 //     picture (3, rows, stride): planes r g b; what lies right of width and below height is not read
 //     photo   (height, stride): R G B A bytes, R lowest
@@ -59,10 +59,8 @@ static void blur_column(const float *w, const Moments *rows, Moments *out) {
 }
 
 // One row of the three maps; strips at the left and right edge also clear the margin beside them.
-static void store_maps(const SsimRecord *s, __global float *maps, int x, int y, int channel, float16 d_x, float16 d_xx,
-                       float16 d_xy) {
+static void store_maps(const SsimRecord *s, __global float *maps, int x, int y, int channel, const float16 *values) {
     const int row = s->stride + 2 * SSIM_MARGIN, plane = row * s->rows;
-    const float16 values[SSIM_MAPS] = {d_x, d_xx, d_xy};
     for (int k = 0; k < SSIM_MAPS; k++) {
         __global float16 *at = (__global float16 *)(maps + (k * 3 + channel) * plane + y * row + SSIM_MARGIN + x);
         at[0] = values[k];
@@ -106,11 +104,10 @@ __kernel void ssim_forward_gpu(const SsimRecord s, __global const float *picture
         const int y_out = y - SSIM_RADIUS; // its window is complete
         if (y_out >= y_begin) {
             Moments window;
-            float16 d_x, d_xx, d_xy;
+            float16 map[SSIM_MAPS];
             blur_column(s.window, ring + slot + 1, &window);
-            const float16 ssim = ssim_at(window, &d_x, &d_xx, &d_xy);
-            sum_ssim = fma(inside, ssim, sum_ssim);
-            store_maps(&s, maps, x, y_out, channel, inside * d_x, inside * d_xx, inside * d_xy);
+            sum_ssim += ssim_at(window, inside, &map[0], &map[1], &map[2]);
+            store_maps(&s, maps, x, y_out, channel, map);
         }
         slot = slot == TAPS - 1 ? 0 : slot + 1;
     }

@@ -50,12 +50,12 @@ static float16 ssim_picture16(__global const float *row, int x, const SsimRecord
 static float16 ssim_photo16(__global const uint *row, int x, const SsimRecord *s, int channel) {
     if (x < 0 || x >= s->width) return (float16)(0.0f);
     const uint16 rgba = *(__global const uint16 *)(row + x);
-    const float over_255 = 1.0f / 255.0f;
+    const float head = 257.0f / 65536.0f, tail = 1.0f / 255.0f / 65536.0f; // of 1 / 255; byte * head is exact
     const float16 byte = convert_float16(rgba >> (uint)(8 * channel) & 255u);
-    const float16 quotient = byte * over_255;
-    const float16 colour = fma(fma(-quotient, (float16)(255.0f), byte), over_255, quotient); // byte / 255, rounded once
-    const float16 alpha = convert_float16(rgba >> 24) * over_255;                            // 0 and 255 give 0 and 1
-    const float16 value = fma(colour, alpha, s->background[channel] * (1.0f - alpha));
+    const float16 colour = fma(byte, (float16)(tail), byte * head);      // byte / 255, rounded once
+    const float16 alpha = convert_float16(rgba >> 24) * (1.0f / 255.0f); // 0 and 255 give 0 and 1
+    const float16 behind = s->background[channel];
+    const float16 value = fma(colour, alpha, fma(-alpha, behind, behind));
     return select((float16)(0.0f), value, ssim_columns(x) < s->width);
 }
 
@@ -84,7 +84,7 @@ static float16 ssim_blur_across(const float *w, SsimRow r) {
 // How far ahead a strip asks for memory: it steps by whole picture rows, wider than a CPU foresees by itself; unasked, half the time
 // would be waiting.
 #define SSIM_ROWS_AHEAD    4
-#define SSIM_COLUMNS_AHEAD 32 // and a band, which walks along many rows at once
+#define SSIM_COLUMNS_AHEAD 16 // and a panel, which walks along sixteen rows at once
 
 // Sum of the lanes, always in this order.
 static float ssim_lane_sum(float16 v) {

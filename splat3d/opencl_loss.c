@@ -91,7 +91,10 @@ static int strips(int width, int height) {
     return 3 * (width / SSIM_STRIP_WIDTH) * ((height + SSIM_STRIP_HEIGHT - 1) / SSIM_STRIP_HEIGHT);
 }
 
-static int bands(int rows) { return 3 * ((rows + SSIM_BAND_HEIGHT - 1) / SSIM_BAND_HEIGHT); }
+static int panels(int width, int height) {
+    int across = (width + SSIM_PANEL_WIDTH - 1) / SSIM_PANEL_WIDTH;
+    return 3 * across * ((height + SSIM_PANEL_HEIGHT - 1) / SSIM_PANEL_HEIGHT);
+}
 
 static bool run_fused(OpenclLoss *loss, const SsimRecord *record, DevicePicture picture, GpuBuffer *photo) {
     return gpu_launch(loss->fused, gpu_range((size_t)loss->items, 1), gpu_record_arg(record, sizeof *record),
@@ -118,7 +121,7 @@ bool opencl_loss_run(OpenclLoss *loss, DevicePicture picture, GpuBuffer *photo, 
     assert(picture.stride == padded(picture.width) && picture.rows == padded(picture.height));
     loss->values = 3.0 * picture.width * picture.height;
     loss->lambda = lambda;
-    loss->items = loss->is_fused ? bands(picture.rows) : strips(picture.stride, picture.height);
+    loss->items = loss->is_fused ? panels(picture.stride, picture.rows) : strips(picture.stride, picture.height);
     SsimRecord record = {
         .width = picture.width,
         .height = picture.height,

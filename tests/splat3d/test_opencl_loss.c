@@ -162,7 +162,8 @@ static void case_check(Case *c, const char *what, Tolerance tolerance) {
 
 static void noise_of_every_size_gives_the_references_loss_and_gradient(void **state) {
     (void)state;
-    const int sizes[][2] = {{37, 53}, {16, 16}, {123, 82}, {5, 7}, {1, 1}, {64, 33}, {17, 100}, {31, 64}, {32, 65}};
+    const int sizes[][2] = {{37, 53}, {16, 16},  {123, 82}, {5, 7},   {1, 1},
+                            {64, 33}, {17, 100}, {31, 64},  {32, 65}, {1100, 90}};
     for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         char what[64];
         snprintf(what, sizeof what, "%d x %d", sizes[i][0], sizes[i][1]);
