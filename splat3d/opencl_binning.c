@@ -76,43 +76,41 @@ static void number_slots(OpenclBinning *binning, int n, const TileBox *box, cons
     gpu_stage_host(binning->gpu, (clock_seconds() - began_s) * 1e3);
 }
 
-static bool make_slots(OpenclBinning *binning, int n, const OpenclProject *project) {
-    void *box, *depth, *offset;
-    reserve_keys(binning, n);
-    if (!gpu_buffer_reserve(binning->offset, (size_t)n * sizeof(uint32_t))) return false;
-    if (!gpu_buffer_map(project->box, GPU_READ, &box)) return false;
-    bool done = gpu_buffer_map(project->depth, GPU_READ, &depth);
-    if (done) {
-        done = gpu_buffer_map(binning->offset, GPU_WRITE, &offset);
-        if (done) number_slots(binning, n, box, depth, offset);
-        done = done && gpu_buffer_unmap(binning->offset);
-        done = gpu_buffer_unmap(project->depth) && done;
-    }
-    done = gpu_buffer_unmap(project->box) && done;
-    if (done && binning->slots > INT_MAX)
-        return fail(
-            "%d splats touch %ld tiles, more than %d can be sorted; are the scales or the focal length too large? "
-            "Smaller pictures need fewer",
-            binning->visible, binning->slots, INT_MAX);
-    return done;
+static bool fail_too_many(const OpenclBinning *binning) {
+    return fail("%d splats touch %ld tiles, more than %d can be sorted; are the scales or the focal length too large? "
+                "Smaller pictures need fewer",
+                binning->visible, binning->slots, INT_MAX);
+}
+
+static bool make_masks(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
+    return gpu_buffer_reserve(binning->mask, (size_t)binning->slots * sizeof(uint16_t)) &&
+           gpu_launch(binning->masks, ((GpuRange){.width = (size_t)frame->splat_count, .group_width = GROUP_SIZE}),
+                      gpu_record_arg(frame, sizeof *frame), gpu_buffer_arg(project->screen),
+                      gpu_buffer_arg(project->box), gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask)) &&
+           gpu_flush(binning->gpu);
 }
 
 // The host sorts while the device makes the masks: the order is mapped before, so that the map does not wait for them. (A stage
 // report counts the masks, and what the sort takes longer than they do as `other`.)
 bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
-    const size_t n = (size_t)frame->splat_count;
-    void *order;
+    const size_t bytes = (size_t)frame->splat_count * sizeof(uint32_t);
+    enum { BOX, DEPTH, OFFSET, ORDER, MAPS };
     gpu_stage(binning->gpu, "sort");
-    if (!make_slots(binning, frame->splat_count, project) ||
-        !gpu_buffer_reserve(binning->mask, (size_t)binning->slots * sizeof(uint16_t)) ||
-        !gpu_buffer_reserve(binning->order, n * sizeof(uint32_t)) || !gpu_buffer_map(binning->order, GPU_WRITE, &order))
-        return false;
-    const bool done =
-        gpu_launch(binning->masks, ((GpuRange){.width = n, .group_width = GROUP_SIZE}),
-                   gpu_record_arg(frame, sizeof *frame), gpu_buffer_arg(project->screen), gpu_buffer_arg(project->box),
-                   gpu_buffer_arg(binning->offset), gpu_buffer_arg(binning->mask)) &&
-        gpu_flush(binning->gpu);
-    if (done) depth_sort(binning->visible, binning->keys, binning->scratch, order);
+    reserve_keys(binning, frame->splat_count);
+    if (!gpu_buffer_reserve(binning->offset, bytes) || !gpu_buffer_reserve(binning->order, bytes)) return false;
+    GpuMap maps[MAPS] = {
+        [BOX] = {project->box, GPU_READ, NULL},
+        [DEPTH] = {project->depth, GPU_READ, NULL},
+        [OFFSET] = {binning->offset, GPU_WRITE, NULL},
+        [ORDER] = {binning->order, GPU_WRITE, NULL},
+    };
+    if (!gpu_buffers_map(maps, MAPS)) return false;
+    number_slots(binning, frame->splat_count, maps[BOX].pointer, maps[DEPTH].pointer, maps[OFFSET].pointer);
+    bool done = true;
+    for (int i = 0; i < ORDER; i++) done = gpu_buffer_unmap(maps[i].buffer) && done;
+    if (done && binning->slots > INT_MAX) done = fail_too_many(binning);
+    done = done && make_masks(binning, frame, project);
+    if (done) depth_sort(binning->visible, binning->keys, binning->scratch, maps[ORDER].pointer);
     return gpu_buffer_unmap(binning->order) && done;
 }
 

@@ -84,7 +84,7 @@ bool gpu_buffer_reserve(GpuBuffer *buffer, size_t bytes) {
     return true;
 }
 
-bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer) {
+static bool buffer_map(GpuBuffer *buffer, GpuAccess access, cl_bool waits, void **pointer) {
     static const cl_map_flags FLAGS[] = {
         [GPU_READ] = CL_MAP_READ,
         [GPU_WRITE] = CL_MAP_WRITE_INVALIDATE_REGION,
@@ -92,12 +92,30 @@ bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer) {
     };
     assert(!buffer->mapped);
     cl_int code;
-    buffer->gpu->counts.waits++;
-    *pointer = clEnqueueMapBuffer(buffer->gpu->queue, buffer->memory, CL_TRUE, FLAGS[access], 0, buffer->bytes, 0, NULL,
+    *pointer = clEnqueueMapBuffer(buffer->gpu->queue, buffer->memory, waits, FLAGS[access], 0, buffer->bytes, 0, NULL,
                                   NULL, &code);
     if (!opencl_ok(code, "clEnqueueMapBuffer", buffer->name, buffer->gpu)) return false;
     buffer->mapped = *pointer;
+    return true;
+}
+
+bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer) {
+    buffer->gpu->counts.waits++;
+    if (!buffer_map(buffer, access, CL_TRUE, pointer)) return false;
     stage_collect(buffer->gpu); // the blocking map has emptied the queue
+    return true;
+}
+
+// The queue is in order: when the last one is mapped, all are.
+bool gpu_buffers_map(GpuMap *maps, int count) {
+    for (int i = 0; i < count; i++) {
+        if (buffer_map(maps[i].buffer, maps[i].access, i == count - 1, &maps[i].pointer)) continue;
+        while (i > 0) gpu_buffer_unmap(maps[--i].buffer);
+        return false;
+    }
+    Gpu *gpu = maps[0].buffer->gpu;
+    gpu->counts.waits++;
+    stage_collect(gpu);
     return true;
 }
 

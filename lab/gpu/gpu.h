@@ -79,6 +79,14 @@ bool gpu_buffer_reserve(GpuBuffer *buffer, size_t bytes);
 // Every map is ended by an unmap before the next kernel uses the buffer.
 typedef enum { GPU_READ = 1, GPU_WRITE = 2, GPU_READ_WRITE = 3 } GpuAccess; // GPU_WRITE: old content is not kept
 bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer);
+
+// Several at once, with one wait, which can take as long as a small kernel. On failure none is mapped.
+typedef struct {
+    GpuBuffer *buffer;
+    GpuAccess access;
+    void *pointer; // set
+} GpuMap;
+bool gpu_buffers_map(GpuMap *maps, int count);
 bool gpu_buffer_unmap(GpuBuffer *buffer);
 
 // Map, copy, unmap.

@@ -63,6 +63,25 @@ static void a_mapping_shows_and_changes_the_content(void **state) {
     gpu_buffer_destroy(buffer);
 }
 
+static void several_are_mapped_with_one_wait(void **state) {
+    const int written[2] = {12, 34};
+    int got;
+    GpuMap maps[2] = {{.access = GPU_READ}, {.access = GPU_READ_WRITE}};
+    for (int i = 0; i < 2; i++) {
+        assert_true(gpu_buffer_create(*state, "test", sizeof *written, &maps[i].buffer));
+        assert_true(gpu_buffer_write(maps[i].buffer, &written[i], sizeof *written));
+    }
+    const long waits = gpu_counts(*state).waits;
+    assert_true(gpu_buffers_map(maps, 2));
+    assert_int_equal(gpu_counts(*state).waits, waits + 1);
+    for (int i = 0; i < 2; i++) assert_int_equal(*(int *)maps[i].pointer, written[i]);
+    *(int *)maps[1].pointer = 56;
+    for (int i = 0; i < 2; i++) assert_true(gpu_buffer_unmap(maps[i].buffer));
+    assert_true(gpu_buffer_read(maps[1].buffer, &got, sizeof got));
+    assert_int_equal(got, 56);
+    for (int i = 0; i < 2; i++) gpu_buffer_destroy(maps[i].buffer);
+}
+
 static void a_buffer_grows_by_half_and_never_shrinks(void **state) {
     GpuBuffer *buffer;
     assert_true(gpu_buffer_create(*state, "test", 1000, &buffer));
@@ -119,6 +138,7 @@ int main(void) {
         cmocka_unit_test(a_new_buffer_is_zero),
         cmocka_unit_test(what_is_written_is_read_back),
         cmocka_unit_test(a_mapping_shows_and_changes_the_content),
+        cmocka_unit_test(several_are_mapped_with_one_wait),
         cmocka_unit_test(a_buffer_grows_by_half_and_never_shrinks),
         cmocka_unit_test(an_empty_buffer_has_one_byte),
         cmocka_unit_test(a_part_is_the_same_memory_as_the_whole),
