@@ -427,7 +427,8 @@ static void a_warm_step_allocates_builds_and_copies_nothing(void **state) {
     assert_int_equal(after.allocations, before.allocations);
     assert_int_equal(after.builds, before.builds);
     assert_int_equal(after.copied_bytes - before.copied_bytes, STEPS * NOTE_BYTES);
-    assert_true(after.launches - before.launches <= 10 * STEPS);
+    // A GPU takes the loss and the step in parts, one for each field.
+    assert_true(after.launches - before.launches <= (gpu_info(gpu)->is_cpu ? 10 : 20) * STEPS);
     assert_true(after.waits - before.waits <= 4 * STEPS);
     trainer_destroy(trainer);
     dataset_destroy(&dataset);
