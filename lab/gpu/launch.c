@@ -1,5 +1,6 @@
 #include "lab/gpu/opencl.h"
 
+#include "lab/base/clock.h"
 #include "lab/base/fail.h"
 
 #include <assert.h>
@@ -54,8 +55,10 @@ bool gpu_launch_args_from(GpuKernel *kernel, GpuRange range, size_t offset, cons
     if (!global[0]) return true; // nothing to do
     gpu->counts.launches++;
     cl_event *event = stage_next_event(gpu);
+    const double began_s = clock_seconds();
     cl_int code = clEnqueueNDRangeKernel(gpu->queue, kernel->kernel, dimensions, offset ? first : NULL, global, local,
                                          0, NULL, event);
+    opencl_note_compiling(gpu, began_s); // PoCL compiles a kernel's loops over work-items here
     return opencl_ok(code, "clEnqueueNDRangeKernel", kernel->name, gpu);
 }
 

@@ -65,6 +65,15 @@ const char *opencl_error_name(cl_int code);
 // the compiler's messages name the true file and line. *text is owned by the caller.
 bool kernel_source_read(const char *file, char **text);
 
+// The binary of a program that was compiled before from the same text for the same device and driver; owned by the caller. False
+// where there is none: nothing has failed. What cannot be saved is compiled again next time.
+bool program_cache_load(const GpuProgram *program, const char *source, const char *options, unsigned char **binary,
+                        size_t *bytes);
+void program_cache_save(const GpuProgram *program, const char *source, const char *options);
+
+// Says once that kernels are being compiled, if what began then has taken long enough for that.
+void opencl_note_compiling(Gpu *gpu, double began_s);
+
 // Runs known-answer kernels; fails with expected and actual value when the device computes wrongly.
 bool self_test_run(Gpu *gpu);
 

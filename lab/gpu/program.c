@@ -44,19 +44,39 @@ static cl_int build_quietly(cl_program program, cl_device_id device, const char 
     return code;
 }
 
+void opencl_note_compiling(Gpu *gpu, double began_s) {
+    if (gpu->said_compiling || clock_seconds() - began_s <= SLOW_BUILD_S) return;
+    log_info("compiling kernels for %s (the driver keeps them for the next run)", gpu->info.name);
+    gpu->said_compiling = true;
+}
+
+static bool build_from_cache(GpuProgram *program, const char *source, const char *options) {
+    const Gpu *gpu = program->gpu;
+    unsigned char *binary;
+    size_t bytes;
+    cl_int status, code;
+    if (!program_cache_load(program, source, options, &binary, &bytes)) return false;
+    program->program = clCreateProgramWithBinary(gpu->context, 1, &gpu->device, &bytes, (const unsigned char **)&binary,
+                                                 &status, &code);
+    mem_free(binary);
+    if (code == CL_SUCCESS && build_quietly(program->program, gpu->device, options) == CL_SUCCESS) return true;
+    if (program->program) clReleaseProgram(program->program);
+    program->program = NULL;
+    return false;
+}
+
 static bool program_build(GpuProgram *program, const char *source, const char *options) {
     Gpu *gpu = program->gpu;
     cl_int code;
+    gpu->counts.builds++;
+    if (build_from_cache(program, source, options)) return true;
     program->program = clCreateProgramWithSource(gpu->context, 1, &source, NULL, &code);
     if (!opencl_ok(code, "clCreateProgramWithSource", program->file, gpu)) return false;
     double began_s = clock_seconds();
-    gpu->counts.builds++;
     code = build_quietly(program->program, gpu->device, options);
     if (code != CL_SUCCESS) return program_fail_build(program, code);
-    if (!gpu->said_compiling && clock_seconds() - began_s > SLOW_BUILD_S) {
-        log_info("compiling kernels for %s (the driver keeps them for the next run)", gpu->info.name);
-        gpu->said_compiling = true;
-    }
+    opencl_note_compiling(gpu, began_s);
+    program_cache_save(program, source, options);
     return true;
 }
 

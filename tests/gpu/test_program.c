@@ -3,8 +3,10 @@
 #include "lab/gpu/gpu.h"
 #include "tests/support/support.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static int open_device(void **state) {
     Gpu *gpu;
@@ -181,6 +183,71 @@ static void ids_can_begin_elsewhere(void **state) {
     gpu_program_destroy(program);
 }
 
+// The one file in the cache of compiled programs; NULL: there is none.
+static char *kept_file(const char *cache) {
+    char *folder = mem_format("%s/splatlab/kernels", cache), *path = NULL;
+    DIR *directory = opendir(folder);
+    for (struct dirent *entry; directory && (entry = readdir(directory));)
+        if (entry->d_name[0] != '.') {
+            assert_null(path);
+            path = mem_format("%s/%s", folder, entry->d_name);
+        }
+    if (directory) closedir(directory);
+    mem_free(folder);
+    return path;
+}
+
+static const char ANSWER_7[] = "__kernel void answer(__global int *a) { a[0] = 7; }\n";
+
+static void a_compiled_program_is_kept_until_its_text_changes(void **state) {
+    if (strcmp(gpu_info(*state)->platform, "Portable Computing Language") != 0) {
+        print_message("skipped: %s keeps compiled programs by itself\n", gpu_info(*state)->platform);
+        skip();
+    }
+    const char *folder = support_scratch(), *cache = support_path(folder, "cache");
+    setenv("XDG_CACHE_HOME", cache, 1);
+    gpu_set_kernel_folder(folder);
+    put_file(folder, "kept.cl", ANSWER_7);
+    assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
+    char *path = kept_file(cache);
+    assert_non_null(path);
+    assert_int_equal(run_answer(*state, "kept.cl", ""), 7); // from there
+    put_file(folder, "kept.cl", "__kernel void answer(__global int *a) { a[0] = 8; }\n");
+    assert_int_equal(run_answer(*state, "kept.cl", ""), 8);
+    mem_free(kept_file(cache)); // still one
+    // A person's own program, of which the arguments' names are asked, is not kept.
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(run_answer(*state, "kept.cl", "-cl-kernel-arg-info"), 8);
+    assert_null(kept_file(cache));
+    mem_free(path);
+    unsetenv("XDG_CACHE_HOME");
+}
+
+static void a_damaged_kept_program_is_not_believed(void **state) {
+    const char *folder = support_scratch(), *cache = support_path(folder, "cache");
+    setenv("XDG_CACHE_HOME", cache, 1);
+    gpu_set_kernel_folder(folder);
+    put_file(folder, "kept.cl", ANSWER_7);
+    assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
+    char *path = kept_file(cache);
+    if (path) {
+        FILE *file = fopen(path, "r+b");
+        assert_non_null(file);
+        assert_int_equal(fseek(file, -5, SEEK_END), 0);
+        fputc('?', file);
+        fclose(file);
+        assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
+        assert_int_equal(truncate(path, 100), 0);
+        assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
+        assert_int_equal(truncate(path, 0), 0);
+        assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
+    }
+    mem_free(path);
+    setenv("XDG_CACHE_HOME", "/proc/nowhere", 1); // a place where nothing can be kept
+    assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
+    unsetenv("XDG_CACHE_HOME");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_compile_error_names_file_and_line, forget_folder),
@@ -194,6 +261,8 @@ int main(void) {
         cmocka_unit_test(an_unknown_kernel_name_fails_with_file_and_name),
         cmocka_unit_test(a_kernel_tells_what_its_arguments_are),
         cmocka_unit_test(ids_can_begin_elsewhere),
+        cmocka_unit_test_teardown(a_compiled_program_is_kept_until_its_text_changes, forget_folder),
+        cmocka_unit_test_teardown(a_damaged_kept_program_is_not_believed, forget_folder),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
