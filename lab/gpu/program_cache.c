@@ -63,11 +63,29 @@ static bool is_kept(const Gpu *gpu, const char *options) {
     return strcmp(gpu->info.platform, "Portable Computing Language") == 0 && !strstr(options, "-cl-kernel-arg-info");
 }
 
+// The text without the marks that say where it stood: two installations of the same kernels share what is kept.
+static char *without_line_marks(const char *source) {
+    static const char MARK[] = "#line ";
+    char *text = mem_alloc(strlen(source) + 1, 1), *out = text;
+    while (*source) {
+        const size_t length = strcspn(source, "\n"), whole = length + (source[length] == '\n');
+        if (strncmp(source, MARK, strlen(MARK)) != 0) {
+            memcpy(out, source, whole);
+            out += whole;
+        }
+        source += whole;
+    }
+    *out = 0;
+    return text;
+}
+
 // Both owned by the caller; *path is NULL where nothing is kept.
 static void name_entry(const GpuProgram *program, const char *source, const char *options, char **path, char **key) {
     char *driver = driver_of(program->gpu), *folder = is_kept(program->gpu, options) ? cache_folder() : NULL;
     const uint64_t h = hash(hash(HASH_BEGIN, driver, strlen(driver)), options, strlen(options));
-    *key = mem_format("%s\n%s\n%s", driver, options, source);
+    char *text = without_line_marks(source);
+    *key = mem_format("%s\n%s\n%s", driver, options, text);
+    mem_free(text);
     *path = folder ? mem_format("%s/%s-%016" PRIx64 ".bin", folder, program->file, h) : NULL;
     mem_free(folder);
     mem_free(driver);
