@@ -2,8 +2,10 @@
 #ifndef SPLATLAB_KERNELS_ADAM_RECORD_H
 #define SPLATLAB_KERNELS_ADAM_RECORD_H
 
-#define ADAM_LANES      16 // numbers that one work-item does
-#define ADAM_FIELD_BITS 3  // of the word that says which number was not finite: splat << ADAM_FIELD_BITS | field
+#include "shared.h"
+
+#define ADAM_LANES      SPLAT_GROUP // numbers that one work-item does: one of each splat of a group
+#define ADAM_FIELD_BITS 3 // of the word that says which number was not finite: splat << ADAM_FIELD_BITS | field
 #define ADAM_ALL_FINITE 0xffffffffu // that word when there is none
 
 // A kernel argument by value. Every constant is computed in double precision and rounded once.

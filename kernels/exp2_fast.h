@@ -2,7 +2,7 @@
 //
 // x = n + f with n the integer below: 2^f on [0, 1) is a minimax polynomial of degree 5 (relative error 1.5e-7, rounding
 // included), and n goes into the exponent bits. AVX-512 has one instruction for f and one for 2^n: seven in all instead of
-// eleven, with the same bits.
+// ten, with the same bits.
 // Outside the range the result is garbage: the callers select it away, right here, before a processor stumbles over the tiny
 // numbers among it.
 // On PoCL the built-in exp2() makes the whole forward blend 35 % slower. Test: tests/splat3d/test_exp2_fast.c.

@@ -80,8 +80,8 @@ static inline Int projection_quaternion(__global const float *quat, Projection *
     return p->quat_length > QUAT_LENGTH_MIN && isfinite(p->quat_length);
 }
 
-// mean: of the splats, world; log_scale, quat: where their numbers begin (lanes_at()). False for those that cannot be drawn: nearer than the
-// near plane, a quaternion of length 0, a covariance that has no inverse or does not fit a float.
+// mean: of the splats, world; log_scale, quat: where their numbers begin (lanes_at()). False for those that cannot be drawn: nearer
+// than the near plane, a quaternion of length 0, a covariance that has no inverse or does not fit a float.
 static inline Int projection_compute(const FrameRecord *frame, Vec3 mean, __global const float *log_scale,
                                      __global const float *quat, Projection *p) {
     const Vec3 w0 = frame_rotation_row(frame, 0), w1 = frame_rotation_row(frame, 1), w2 = frame_rotation_row(frame, 2);

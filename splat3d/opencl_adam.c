@@ -59,6 +59,7 @@ static AdamRecord adam_record(const AdamRule *rule, int step) {
 }
 
 static bool create_kernels(OpenclAdam *a) {
+    gpu_program_destroy(a->program); // of an attempt that failed
     return gpu_program_create(a->gpu, "adam.cl", "", &a->program) && gpu_kernel(a->program, "adam", &a->adam) &&
            gpu_kernel(a->program, "normalize_quaternions", &a->normalize);
 }
@@ -68,7 +69,7 @@ bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIEL
     assert(step >= 1);
     assert(gradient->count == model->count && m->count == model->count && v->count == model->count);
     const size_t groups = ((size_t)model->count + ADAM_LANES - 1) / ADAM_LANES;
-    if (!adam->program && !create_kernels(adam)) return false;
+    if (!adam->normalize && !create_kernels(adam)) return false;
     for (int f = 0; f < FIELD_COUNT; f++) {
         if (GAUSSIAN_FIELDS[f].sh_degree > active_sh_degree || !model->field[f]) continue;
         AdamRule rule = adam_rule_default((double)learning_rate[f]);
@@ -89,6 +90,7 @@ bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIEL
 AdamStep opencl_adam_prepare(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], DeviceGaussians *m,
                              DeviceGaussians *v) {
     AdamStep s = {.m = m, .v = v, .not_finite = adam->not_finite};
+    assert(step >= 1);
     for (int f = 0; f < FIELD_COUNT; f++) {
         AdamRule rule = adam_rule_default((double)learning_rate[f]);
         s.record.rule = adam_record(&rule, step);

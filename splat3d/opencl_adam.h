@@ -1,5 +1,5 @@
-// opencl_adam.h - Adam on the device, one launch per field, and the guards that stand with it: quaternions stay unit, numbers
-// stay finite.
+// opencl_adam.h - Adam on the device, one launch per field or inside opencl_project_step(), and the guards that stand with it:
+// quaternions stay unit, numbers stay finite.
 #ifndef SPLATLAB_SPLAT3D_OPENCL_ADAM_H
 #define SPLATLAB_SPLAT3D_OPENCL_ADAM_H
 
@@ -18,7 +18,7 @@ void opencl_adam_destroy(OpenclAdam *adam); // accepts NULL
 bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
                       const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v);
 
-// The same step for a kernel that does it right behind the gradients (opencl_project_step()).
+// The same step (step >= 1) for a kernel that does it right behind the gradients (opencl_project_step()).
 typedef struct {
     AdamStepRecord record;
     DeviceGaussians *m, *v;

@@ -94,20 +94,20 @@ static bool make_masks(OpenclBinning *binning, const FrameRecord *frame, const O
 // report counts the masks, and what the sort takes longer than they do as `other`.)
 bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const OpenclProject *project) {
     const size_t bytes = (size_t)frame->splat_count * sizeof(uint32_t);
-    enum { BOX, DEPTH, OFFSET, ORDER, MAPS };
+    enum { ORDER, OFFSET, BOX, DEPTH, MAPS };
     gpu_stage(binning->gpu, "sort");
     reserve_keys(binning, frame->splat_count);
     if (!gpu_buffer_reserve(binning->offset, bytes) || !gpu_buffer_reserve(binning->order, bytes)) return false;
     GpuMap maps[MAPS] = {
+        [ORDER] = {binning->order, GPU_WRITE, NULL},
+        [OFFSET] = {binning->offset, GPU_WRITE, NULL},
         [BOX] = {project->box, GPU_READ, NULL},
         [DEPTH] = {project->depth, GPU_READ, NULL},
-        [OFFSET] = {binning->offset, GPU_WRITE, NULL},
-        [ORDER] = {binning->order, GPU_WRITE, NULL},
     };
     if (!gpu_buffers_map(maps, MAPS)) return false;
     number_slots(binning, frame->splat_count, maps[BOX].pointer, maps[DEPTH].pointer, maps[OFFSET].pointer);
     bool done = true;
-    for (int i = 0; i < ORDER; i++) done = gpu_buffer_unmap(maps[i].buffer) && done;
+    for (int i = OFFSET; i < MAPS; i++) done = gpu_buffer_unmap(maps[i].buffer) && done;
     if (done && binning->slots > INT_MAX) done = fail_too_many(binning);
     done = done && make_masks(binning, frame, project);
     if (done) depth_sort(binning->visible, binning->keys, binning->scratch, maps[ORDER].pointer);

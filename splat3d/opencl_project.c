@@ -4,8 +4,8 @@
 #include <string.h>
 
 enum {
-    LANES_CPU = 16, // splats of one work-item
-    GROUP_CPU = 4,  // work-items
+    LANES_CPU = SPLAT_GROUP, // splats of one work-item
+    GROUP_CPU = 4,           // work-items
     GROUP_GPU = 64,
 };
 
@@ -56,6 +56,12 @@ bool opencl_project_forward(OpenclProject *project, const FrameRecord *frame, co
                       gpu_buffer_arg(project->box), gpu_buffer_arg(project->depth));
 }
 
+static bool create_kernel(const OpenclProject *project, const char *how, const char *name, GpuProgram **program,
+                          GpuKernel **kernel) {
+    gpu_program_destroy(*program); // of an attempt that failed
+    return gpu_program_create(project->gpu, "project_backward.cl", how, program) && gpu_kernel(*program, name, kernel);
+}
+
 // The arguments that the gradients' two kernels have in common, first of both.
 enum { COMMON_ARGS = 16 };
 
@@ -86,8 +92,7 @@ bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, c
                              SplatRecords records, const DensityStatistics *statistics, DeviceGaussians *gradient) {
     GpuArg args[COMMON_ARGS + FIELD_COUNT];
     if (!project->backward &&
-        (!gpu_program_create(project->gpu, "project_backward.cl", options(project), &project->backward_program) ||
-         !gpu_kernel(project->backward_program, "project_backward", &project->backward)))
+        !create_kernel(project, options(project), "project_backward", &project->backward_program, &project->backward))
         return false;
     common_args(project, frame, model, records, statistics, args);
     for (int id = 0; id < FIELD_COUNT; id++) args[COMMON_ARGS + id] = field_arg(gradient, id);
@@ -98,10 +103,10 @@ bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, c
 bool opencl_project_step(OpenclProject *project, const FrameRecord *frame, DeviceGaussians *model, SplatRecords records,
                          const DensityStatistics *statistics, const AdamStep *adam) {
     GpuArg args[COMMON_ARGS + 2 * FIELD_COUNT + 3], *arg = args + COMMON_ARGS;
-    assert(project->lanes != 1);
-    if (!project->step &&
-        (!gpu_program_create(project->gpu, "project_backward.cl", "-D LANES=16 -D ADAM_STEP", &project->step_program) ||
-         !gpu_kernel(project->step_program, "project_backward_step", &project->step)))
+    assert(project->lanes != 1 && model->count == frame->splat_count);
+    assert(adam->m->count == model->count && adam->v->count == model->count);
+    if (!project->step && !create_kernel(project, "-D LANES=16 -D ADAM_STEP", "project_backward_step",
+                                         &project->step_program, &project->step))
         return false;
     common_args(project, frame, model, records, statistics, args);
     *arg++ = gpu_record_arg(&adam->record, sizeof adam->record);

@@ -40,8 +40,8 @@ typedef struct {
 bool opencl_project_backward(OpenclProject *project, const FrameRecord *frame, const DeviceGaussians *model,
                              SplatRecords records, const DensityStatistics *statistics, DeviceGaussians *gradient);
 
-// That and opencl_adam_step() at once, in two thirds of the time: the same numbers, but the gradients are never in memory. Enqueues; *model and the
-// moments change. Only where is_vectorised.
+// That and opencl_adam_step() at once, in two thirds of the time: the same numbers, but the gradients are never in memory. Enqueues;
+// *model and the moments change. Only where is_vectorised.
 bool opencl_project_step(OpenclProject *project, const FrameRecord *frame, DeviceGaussians *model, SplatRecords records,
                          const DensityStatistics *statistics, const AdamStep *adam);
 

@@ -40,8 +40,8 @@ bool opencl_read_picture(OpenclRasterizer *r, Picture *picture); // to the host
 bool opencl_backward(OpenclRasterizer *r, const DeviceGaussians *model, DeviceGaussians *gradient,
                      const DensityStatistics *statistics);
 
-// Backward and a step of Adam: what opencl_backward() and opencl_adam_step() do one after the other, bit by bit the same, but on a CPU device
-// in one kernel. model is that of the last opencl_render().
+// Backward and a step of Adam: what opencl_backward() and opencl_adam_step() do one after the other, bit by bit the same, but on a
+// CPU device in one kernel. model is that of the last opencl_render().
 bool opencl_backward_step(OpenclRasterizer *r, OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT],
                           DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v,
                           const DensityStatistics *statistics);

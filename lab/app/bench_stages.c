@@ -187,8 +187,8 @@ size_t bench_stages_bytes(const BenchStages *s, BenchStage stage) {
     case BENCH_ADAM:
         return 7 * n * learned;
     case BENCH_UPDATE:
-        return n * (6 * learned + screen + sizeof(int)) + record_count(s) * sizeof(PairGradient) +
-               (size_t)s->binning.slots * sizeof(uint16_t);
+        return n * ((s->project.lanes == 1 ? 9 : 6) * learned + screen + sizeof(int)) +
+               record_count(s) * sizeof(PairGradient) + (size_t)s->binning.slots * sizeof(uint16_t);
     default:
         return 0;
     }

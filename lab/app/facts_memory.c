@@ -65,8 +65,8 @@ static size_t pixels_of_largest(const Dataset *dataset) {
     return most;
 }
 
-// Picture and gradient, and the loss's strips (5 sums a pixel and channel).
-static size_t picture_bytes(const Dataset *dataset) { return 3 * (2 + 5) * sizeof(float) * pixels_of_largest(dataset); }
+// Picture and gradient, transmittance and last index. (A GPU has the loss's maps as well, three for each colour.)
+static size_t picture_bytes(const Dataset *dataset) { return (3 * 2 + 2) * sizeof(float) * pixels_of_largest(dataset); }
 
 static size_t scoring_bytes(const Dataset *dataset) {
     return (size_t)evaluate_views_at_once(dataset) * EVALUATE_BYTES_PER_PIXEL * pixels_of_largest(dataset);

@@ -80,7 +80,7 @@ bool gpu_buffer_reserve(GpuBuffer *buffer, size_t bytes);
 typedef enum { GPU_READ = 1, GPU_WRITE = 2, GPU_READ_WRITE = 3 } GpuAccess; // GPU_WRITE: old content is not kept
 bool gpu_buffer_map(GpuBuffer *buffer, GpuAccess access, void **pointer);
 
-// Several at once, with one wait, which can take as long as a small kernel. On failure none is mapped.
+// Several at once, with one wait, which can take as long as a small kernel: those that are read last. On failure none is mapped.
 typedef struct {
     GpuBuffer *buffer;
     GpuAccess access;

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double SLOW_BUILD_S =
-    0.15;                  // a build that the driver finds in its cache takes a sixth of it, a first one thrice as long
+// A build, or a first launch, that the driver finds in its cache takes a sixth of it, a first one thrice as long.
+static const double SLOW_BUILD_S = 0.15;
 enum { LOG_BYTES = 1500 }; // of a compiler's log that a message can take
 
 // The log from its first error on, cut to what one message can hold.
@@ -46,7 +46,7 @@ static cl_int build_quietly(cl_program program, cl_device_id device, const char 
 
 void opencl_note_compiling(Gpu *gpu, double began_s) {
     if (gpu->said_compiling || clock_seconds() - began_s <= SLOW_BUILD_S) return;
-    log_info("compiling kernels for %s (the driver keeps them for the next run)", gpu->info.name);
+    log_info("compiling kernels for %s (they are kept for the next run)", gpu->info.name);
     gpu->said_compiling = true;
 }
 

@@ -3,7 +3,8 @@
 // by themselves.
 //
 // One file for each program, options and device. It holds the key, which is all that the binary depends on, and the binary; a
-// program whose text has changed writes over it. A file that is cut short or damaged is not believed.
+// program whose text has changed, or is another in another kernel folder, writes over it. A file that is cut short or damaged is not
+// believed. Nothing is removed: there are few files, and all may be.
 
 #include "lab/gpu/opencl.h"
 
@@ -53,9 +54,12 @@ static char *cache_folder(void) {
 }
 
 static char *driver_of(const Gpu *gpu) {
-    char driver[256] = "";
+    char driver[256] = "", platform[256] = ""; // the platform's version names the compiler
+    cl_platform_id id = NULL;
     clGetDeviceInfo(gpu->device, CL_DRIVER_VERSION, sizeof driver - 1, driver, NULL);
-    return mem_format("%s\n%s\n%s\n%s", gpu->info.platform, gpu->info.name, gpu->info.version, driver);
+    clGetDeviceInfo(gpu->device, CL_DEVICE_PLATFORM, sizeof id, &id, NULL);
+    clGetPlatformInfo(id, CL_PLATFORM_VERSION, sizeof platform - 1, platform, NULL);
+    return mem_format("%s\n%s\n%s\n%s\n%s", gpu->info.platform, platform, gpu->info.name, gpu->info.version, driver);
 }
 
 // Programs of which one asks for the arguments' names are a person's own: they change all the time.

@@ -55,7 +55,7 @@ static void a_run_leaves_its_files_and_its_figures(void **state) {
     const char *stage;
     double sum = 0;
     assert_int_equal(json_integer_value(json_object_get(profile, "steps")), 20);
-    assert_true(json_object_size(stages) == 8);
+    assert_int_equal(json_object_size(stages), json_object_get(stages, "update") ? 8 : 9); // a GPU has two for it
     json_object_foreach(stages, stage, ms) {
         assert_true(json_real_value(ms) > 0 || strcmp(stage, "other") == 0);
         sum += json_real_value(ms);

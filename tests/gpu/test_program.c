@@ -24,6 +24,7 @@ static int forget_folder(void **state) {
     (void)state;
     gpu_set_kernel_folder(NULL);
     unsetenv("SPLATLAB_KERNELS");
+    unsetenv("XDG_CACHE_HOME");
     return 0;
 }
 
@@ -220,7 +221,6 @@ static void a_compiled_program_is_kept_until_its_text_changes(void **state) {
     assert_int_equal(run_answer(*state, "kept.cl", "-cl-kernel-arg-info"), 8);
     assert_null(kept_file(cache));
     mem_free(path);
-    unsetenv("XDG_CACHE_HOME");
 }
 
 static void a_damaged_kept_program_is_not_believed(void **state) {
@@ -245,7 +245,6 @@ static void a_damaged_kept_program_is_not_believed(void **state) {
     mem_free(path);
     setenv("XDG_CACHE_HOME", "/proc/nowhere", 1); // a place where nothing can be kept
     assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
-    unsetenv("XDG_CACHE_HOME");
 }
 
 int main(void) {

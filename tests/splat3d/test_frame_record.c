@@ -1,5 +1,6 @@
 #include "splat3d/frame_record.h"
 
+#include "kernels/adam_record.h"
 #include "lab/base/fail.h"
 #include "lab/gpu/gpu.h"
 #include "tests/support/random_scene.h"
@@ -13,7 +14,7 @@ static void records_have_the_same_layout_on_the_device(void **state) {
     GpuProgram *program;
     GpuKernel *kernel;
     GpuBuffer *buffer;
-    int sizes[5];
+    int sizes[6];
     const FrameRecord frame = {.is_depth = 4711}; // the last member: anything shifted before it shows here
     assert_true(gpu_open("", &gpu));
     assert_true(gpu_program_create(gpu, "record_sizes.cl", "", &program));
@@ -27,6 +28,7 @@ static void records_have_the_same_layout_on_the_device(void **state) {
     assert_int_equal(sizes[2], sizeof(TileBox));
     assert_int_equal(sizes[3], sizeof(PairGradient));
     assert_int_equal(sizes[4], 4711);
+    assert_int_equal(sizes[5], sizeof(AdamStepRecord));
     gpu_buffer_destroy(buffer);
     gpu_program_destroy(program);
     gpu_close(gpu);

@@ -28,7 +28,7 @@ typedef struct {
 
 static void begin(Training *t, const Gaussians *model) {
     const size_t n = (size_t)model->count;
-    if (!gpu_open("", &t->gpu) || !opencl_rasterizer_create(t->gpu, BLEND_CPU, &t->rasterizer) ||
+    if (!gpu_open("cpu", &t->gpu) || !opencl_rasterizer_create(t->gpu, BLEND_CPU, &t->rasterizer) ||
         !device_gaussians_create(t->gpu, "gradient", model->count, 3, &t->gradient))
         fail_msg("%s", fail_text());
     for (int k = 0; k < 2; k++)
