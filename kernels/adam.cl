@@ -23,12 +23,7 @@ __kernel void adam(const AdamRecord a, __global const float *gradient, __global 
                    __global float *v, __global volatile uint *not_finite) {
     const int first = (int)get_global_id(0) * ADAM_LANES;
     if (first / (ADAM_LANES * a.width) * ADAM_LANES >= a.splats) return;
-    __global float16 *value_at = (__global float16 *)(value + first);
-    __global float16 *m_at = (__global float16 *)(m + first), *v_at = (__global float16 *)(v + first);
-    float16 new_value = *value_at, new_m = *m_at, new_v = *v_at;
-    const int16 finite = adam_step16(&a, *(__global const float16 *)(gradient + first), &new_value, &new_m, &new_v);
-    *value_at = new_value, *m_at = new_m, *v_at = new_v;
-    if (!all_of(finite)) note_not_finite(&a, first, finite, not_finite);
+    adam_vector(&a, *(__global const float16 *)(gradient + first), first, value, m, v, not_finite);
 }
 
 // quat (N, 4). One work-item: a group of sixteen splats.

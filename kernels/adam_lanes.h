@@ -29,6 +29,17 @@ static int16 adam_step16(const AdamRecord *a, float16 g, float16 *x, float16 *m,
     return finite;
 }
 
+// One vector of a field, where it lies; first: its place in the field.
+static void adam_vector(const AdamRecord *a, float16 g, int first, __global float *value, __global float *m,
+                        __global float *v, __global volatile uint *not_finite) {
+    __global float16 *value_at = (__global float16 *)(value + first);
+    __global float16 *m_at = (__global float16 *)(m + first), *v_at = (__global float16 *)(v + first);
+    float16 new_value = *value_at, new_m = *m_at, new_v = *v_at;
+    const int16 finite = adam_step16(a, g, &new_value, &new_m, &new_v);
+    *value_at = new_value, *m_at = new_m, *v_at = new_v;
+    if (!all_of(finite)) note_not_finite(a, first, finite, not_finite);
+}
+
 // Sixteen splats, whose gradients a work-item has at hand.
 typedef struct {
     const AdamStepRecord *step;
@@ -42,15 +53,8 @@ static void adam_group_step(AdamGroup group, int field, int width, const float16
     AdamRecord a = group.step->rule;
     a.rate = group.step->rate[field];
     a.field = field, a.width = width, a.splats = group.splats;
-    for (int k = 0; k < width; k++) {
-        const int first = group.first * width + ADAM_LANES * k;
-        __global float16 *value_at = (__global float16 *)(value + first);
-        __global float16 *m_at = (__global float16 *)(m + first), *v_at = (__global float16 *)(v + first);
-        float16 new_value = *value_at, new_m = *m_at, new_v = *v_at;
-        const int16 finite = adam_step16(&a, gradient[k], &new_value, &new_m, &new_v);
-        *value_at = new_value, *m_at = new_m, *v_at = new_v;
-        if (!all_of(finite)) note_not_finite(&a, first, finite, group.not_finite);
-    }
+    for (int k = 0; k < width; k++)
+        adam_vector(&a, gradient[k], group.first * width + ADAM_LANES * k, value, m, v, group.not_finite);
 }
 
 // The quaternions of a group: divided by their length; zero stays zero.

@@ -9,10 +9,11 @@
 #ifndef SPLATLAB_KERNELS_EXP2_FAST_H
 #define SPLATLAB_KERNELS_EXP2_FAST_H
 
-#if defined(POCL_DEVICE_ADDRESS_BITS) &&                                                                               \
-    !defined(__NVPTX__) // PoCL on a CPU: its compiler is clang, its floor() a call for each lane
+#include "pocl.h"
+
+#ifdef POCL_ON_CPU
 #if __has_builtin(__builtin_elementwise_floor)
-#define EXP2_FLOOR(x) __builtin_elementwise_floor(x)
+#define EXP2_FLOOR(x) __builtin_elementwise_floor(x) // floor() is a call for each lane
 #endif
 #if defined(__AVX512DQ__) && __has_builtin(__builtin_ia32_reduceps512_mask) &&                                         \
     __has_builtin(__builtin_ia32_scalefps512_mask)

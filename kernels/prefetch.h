@@ -5,7 +5,9 @@
 #ifndef SPLATLAB_KERNELS_PREFETCH_H
 #define SPLATLAB_KERNELS_PREFETCH_H
 
-#if defined(POCL_DEVICE_ADDRESS_BITS) && !defined(__NVPTX__) // PoCL on a CPU
+#include "pocl.h"
+
+#ifdef POCL_ON_CPU
 #define PREFETCH(pointer) __builtin_prefetch(pointer)
 #else
 #define PREFETCH(pointer) prefetch((__global const int *)(pointer), 1)

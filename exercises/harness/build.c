@@ -2,6 +2,7 @@
 #include "exercises/harness/build.h"
 
 #include "exercises/harness/worker_process.h"
+#include "lab/base/cache_path.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
 #include "lab/base/parallel.h"
@@ -27,14 +28,11 @@ enum { KEEP_DAYS = 3, FLAG_COUNT = 9 };
 static const char *const FLAGS[FLAG_COUNT] = {
     "-std=c17", "-O1", "-g", "-fPIC", "-shared", "-Wall", "-Wextra", "-D_GNU_SOURCE", "-ffp-contract=off"};
 
-// "$XDG_CACHE_HOME/splatlab/exercises", made when it is not there; owned by the caller.
+// Where compiled exercises are kept, made when it is not there; owned by the caller.
 static bool cache_folder(char **folder) {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME"), *scratch = getenv("TMPDIR");
-    if (cache && cache[0])
-        *folder = mem_format("%s/splatlab/exercises", cache);
-    else if (home && home[0])
-        *folder = mem_format("%s/.cache/splatlab/exercises", home);
-    else
+    const char *scratch = getenv("TMPDIR");
+    *folder = cache_path("exercises");
+    if (!*folder)
         *folder = mem_format("%s/splatlab-%u/exercises", scratch && scratch[0] ? scratch : "/tmp", (unsigned)getuid());
     if (file_make_folder(*folder) && file_can_write_in(*folder)) return true;
     mem_free(*folder);

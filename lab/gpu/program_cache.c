@@ -8,11 +8,11 @@
 
 #include "lab/gpu/opencl.h"
 
+#include "lab/base/cache_path.h"
 #include "lab/base/mem.h"
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -34,15 +34,9 @@ static uint64_t hash(uint64_t h, const void *data, size_t bytes) {
 
 static const uint64_t HASH_BEGIN = 0xcbf29ce484222325u;
 
-// "$XDG_CACHE_HOME/splatlab/kernels", made if need be (where it cannot be, files in it cannot be opened); NULL where there is no
-// place for it.
+// Made if need be (where it cannot be, files in it cannot be opened); NULL where there is no place for it.
 static char *cache_folder(void) {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    char *folder = NULL;
-    if (cache && cache[0] == '/')
-        folder = mem_format("%s/splatlab/kernels", cache);
-    else if (home && home[0] == '/')
-        folder = mem_format("%s/.cache/splatlab/kernels", home);
+    char *folder = cache_path("kernels");
     for (char *end = folder; end; *end = '/') {
         end = strchr(end + 1, '/');
         if (!end) break;
