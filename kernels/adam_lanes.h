@@ -4,6 +4,7 @@
 
 #include "adam_record.h"
 #include "conditions.h"
+#include "in_view.h"
 
 // first: place in the field of the sixteen numbers, each of another splat (SPLAT_GROUP in shared.h). Behind the last splat they are
 // nobody's.
@@ -15,27 +16,33 @@ static void note_not_finite(const AdamRecord *a, int first, int16 finite, __glob
         if (!lanes[i]) atomic_min(not_finite, (uint)(splat + i) << ADAM_FIELD_BITS | (uint)a->field);
 }
 
-// Returns which of the numbers are finite (-1) and were changed.
-static int16 adam_step16(const AdamRecord *a, float16 g, float16 *x, float16 *m, float16 *v) {
+// Which of sixteen splats are stepped (-1); places behind the last splat may be too.
+static int16 stepped_splats(int only_in_view, int first, int splats, __global const TileBox *box) {
+    return only_in_view ? splats_in_view(first, splats, box) : (int16)(-1);
+}
+
+// Returns which of the numbers are finite (-1); those of them that are to be stepped were changed.
+static int16 adam_step16(const AdamRecord *a, float16 g, int16 stepped, float16 *x, float16 *m, float16 *v) {
 #pragma OPENCL FP_CONTRACT OFF
     const float16 new_m = fma((float16)(a->beta1), *m, a->one_minus_beta1 * g);
     const float16 new_v = fma((float16)(a->beta2), *v, a->one_minus_beta2 * g * g);
     const float16 size = fma(sqrt(new_v), (float16)(a->over_root_v_part), (float16)(a->epsilon));
     const float16 new_x = fma((float16)(-a->rate), new_m / size, *x);
     const int16 finite = isfinite(new_x) && isfinite(new_v); // g and m' cannot be otherwise unless one of these is too
-    *x = select(*x, new_x, finite);
-    *m = select(*m, new_m, finite);
-    *v = select(*v, new_v, finite);
+    const int16 changed = finite && stepped;
+    *x = select(*x, new_x, changed);
+    *m = select(*m, new_m, changed);
+    *v = select(*v, new_v, changed);
     return finite;
 }
 
 // One vector of a field, where it lies; first: its place in the field.
-static void adam_vector(const AdamRecord *a, float16 g, int first, __global float *value, __global float *m,
-                        __global float *v, __global volatile uint *not_finite) {
+static void adam_vector(const AdamRecord *a, float16 g, int first, int16 stepped, __global float *value,
+                        __global float *m, __global float *v, __global volatile uint *not_finite) {
     __global float16 *value_at = (__global float16 *)(value + first);
     __global float16 *m_at = (__global float16 *)(m + first), *v_at = (__global float16 *)(v + first);
     float16 new_value = *value_at, new_m = *m_at, new_v = *v_at;
-    const int16 finite = adam_step16(a, g, &new_value, &new_m, &new_v);
+    const int16 finite = adam_step16(a, g, stepped, &new_value, &new_m, &new_v);
     *value_at = new_value, *m_at = new_m, *v_at = new_v;
     if (!all_of(finite)) note_not_finite(a, first, finite, not_finite);
 }
@@ -44,6 +51,7 @@ static void adam_vector(const AdamRecord *a, float16 g, int first, __global floa
 typedef struct {
     const AdamStepRecord *step;
     int first, splats; // the group's first splat; N
+    int16 stepped;     // which of them are to be stepped
     __global volatile uint *not_finite;
 } AdamGroup;
 
@@ -54,16 +62,17 @@ static void adam_group_step(AdamGroup group, int field, int width, const float16
     a.rate = group.step->rate[field];
     a.field = field, a.width = width, a.splats = group.splats;
     for (int k = 0; k < width; k++)
-        adam_vector(&a, gradient[k], group.first * width + ADAM_LANES * k, value, m, v, group.not_finite);
+        adam_vector(&a, gradient[k], group.first * width + ADAM_LANES * k, group.stepped, value, m, v,
+                    group.not_finite);
 }
 
-// The quaternions of a group: divided by their length; zero stays zero.
-static void normalize_group(__global float *quat) {
+// The quaternions of a group that were stepped: divided by their length; zero stays zero.
+static void normalize_group(__global float *quat, int16 stepped) {
     float16 q[4];
     for (int k = 0; k < 4; k++) q[k] = vload16(k, quat);
     const float16 squared = fma(q[0], q[0], fma(q[1], q[1], fma(q[2], q[2], q[3] * q[3])));
     const float16 length = sqrt(squared);
-    const int16 has_length = squared > 0.0f && isfinite(squared);
+    const int16 has_length = squared > 0.0f && isfinite(squared) && stepped;
     for (int k = 0; k < 4; k++) vstore16(select(q[k], q[k] / length, has_length), k, quat);
 }
 

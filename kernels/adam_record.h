@@ -13,6 +13,7 @@ typedef struct {
     int splats;            // N
     int width;             // numbers of one splat
     int field;             // GaussianFieldId
+    int only_in_view;      // of the frame: the others stay as they are, their moments too
     float beta1, beta2;    // 0.9, 0.999
     float one_minus_beta1; // of the exact betas, not of the rounded ones
     float one_minus_beta2;

@@ -27,6 +27,7 @@
 // Reference: reference_project_backward(). Tests: tests/splat3d/test_opencl_gradients.c, test_opencl_step.c.
 #include "shared.h"
 
+#include "in_view.h"
 #include "projection.h"
 #include "sh_basis.h"
 #include "sh_field.h"
@@ -70,12 +71,7 @@ static void add_statistics(int i, int end, Int visible, Real d_mean_ndc, __globa
 
 #else
 
-static Int is_in_view(int first, int end, __global const TileBox *box) {
-    int in_view[LANES];
-    for (int lane = 0; lane < LANES; lane++)
-        in_view[lane] = first + lane < end ? box[first + lane].x0 - box[first + lane].x1 : 0;
-    return vload16(0, in_view) < 0;
-}
+static Int is_in_view(int first, int end, __global const TileBox *box) { return splats_in_view(first, end, box); }
 
 // One splat's records, added up as vectors of their first eight numbers and the ninth.
 static float16 sum_splat(TileBox tiles, uint slot, __global const ushort *mask, __global const PairGradient *records) {
@@ -350,17 +346,19 @@ __kernel void project_backward_step(
     __global float *v_sh1, __global float *v_sh2, __global float *v_sh3, __global volatile uint *not_finite) {
     const int first = (int)get_global_id(0) * LANES;
     if (first >= frame.splat_count) return;
+    const Int stepped = stepped_splats(adam.rule.only_in_view, first, frame.splat_count, box);
+    if (!any_of(stepped)) return;
     const Model model = {mean, log_scale, quat, opacity_logit, sh1, sh2, sh3};
     const Drawn drawn = {screen, box, offset, mask, records};
     const Statistics statistics = {has_statistics, gradient_ndc, seen};
     ModelGradient d;
     splats_backward(&frame, first, model, drawn, statistics, &d);
 
-    const AdamGroup group = {&adam, first, frame.splat_count, not_finite};
+    const AdamGroup group = {&adam, first, frame.splat_count, stepped, not_finite};
     adam_group_step(group, ADAM_MEAN, 3, d.mean, mean, m_mean, v_mean);
     adam_group_step(group, ADAM_LOG_SCALE, 3, d.log_scale, log_scale, m_log_scale, v_log_scale);
     adam_group_step(group, ADAM_QUAT, 4, d.quat, quat, m_quat, v_quat);
-    normalize_group(quat + 4 * first);
+    normalize_group(quat + 4 * first, stepped);
     adam_group_step(group, ADAM_OPACITY_LOGIT, 1, &d.opacity_logit, opacity_logit, m_opacity_logit, v_opacity_logit);
     adam_group_step(group, ADAM_SH0, 3, d.sh0, sh0, m_sh0, v_sh0);
     if (frame.sh_degree >= 1) adam_group_step(group, ADAM_SH1, 9, d.sh1, sh1, m_sh1, v_sh1);

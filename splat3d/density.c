@@ -2,6 +2,7 @@
 
 #include "lab/base/mem.h"
 #include "lab/base/rng.h"
+#include "splat3d/morton_order.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,6 +16,11 @@ typedef struct {
     int *source;    // (count) index in the model before
     Origin *origin; // (count)
 } Plan;
+
+static void plan_destroy(Plan *plan) {
+    mem_free(plan->source);
+    mem_free(plan->origin);
+}
 
 typedef enum { GROW_NOT, GROW_CLONE, GROW_SPLIT } Growth;
 
@@ -75,6 +81,24 @@ static void plan_add(Plan *plan, int source, Origin origin, bool alive, DensityC
     plan->origin[plan->count++] = origin;
 }
 
+// Splats as near each other in memory as they are in space; those that come from one place keep their order.
+static void arrange_plan(Plan *plan, const Gaussians *g) {
+    size_t n = (size_t)plan->count;
+    float *mean = mem_alloc(n, 3 * sizeof *mean);
+    uint32_t *order = mem_alloc(n, sizeof *order);
+    Plan arranged = {plan->count, mem_alloc(n, sizeof *plan->source), mem_alloc(n, sizeof *plan->origin)};
+    for (size_t i = 0; i < n; i++) memcpy(mean + 3 * i, gaussians_at(g, FIELD_MEAN, plan->source[i]), 3 * sizeof *mean);
+    morton_order(plan->count, mean, order);
+    for (size_t i = 0; i < n; i++) {
+        arranged.source[i] = plan->source[order[i]];
+        arranged.origin[i] = plan->origin[order[i]];
+    }
+    mem_free(mean);
+    mem_free(order);
+    plan_destroy(plan);
+    *plan = arranged;
+}
+
 static Plan make_plan(const TrainOptions *o, double scene_extent, bool prune_large, const TrainingState *s,
                       DensityChange *change) {
     int n = s->model.count;
@@ -93,6 +117,7 @@ static Plan make_plan(const TrainOptions *o, double scene_extent, bool prune_lar
             plan_add(&plan, i, ORIGIN_CHILD, survives(o, scene_extent, prune_large, &s->model, i, SPLIT_SHRINK),
                      change);
     mem_free(growth);
+    arrange_plan(&plan, &s->model);
     return plan;
 }
 
@@ -153,8 +178,7 @@ DensityChange density_control(const TrainOptions *o, int step, double scene_exte
     s->id = id;
     s->gradient_sum = mem_alloc(n, sizeof *s->gradient_sum);
     s->seen = mem_alloc(n, sizeof *s->seen);
-    mem_free(plan.source);
-    mem_free(plan.origin);
+    plan_destroy(&plan);
     return change;
 }
 

@@ -3,6 +3,7 @@
 #include "lab/base/mem.h"
 #include "lab/base/rng.h"
 #include "splat3d/kd_tree.h"
+#include "splat3d/morton_order.h"
 
 #include <math.h>
 
@@ -27,6 +28,7 @@ Gaussians first_splats_from_points(const Points *points, int sh_degree, double f
     }
     kd_tree_destroy(&tree);
     mem_free(distance2);
+    morton_arrange(&g);
     return g;
 }
 

@@ -14,6 +14,7 @@ _Static_assert(FIELD_COUNT <= 1 << ADAM_FIELD_BITS, "a field's number does not f
 
 struct OpenclAdam {
     Gpu *gpu;
+    bool only_in_view;
     GpuProgram *program; // from the first opencl_adam_step() on
     GpuKernel *adam, *normalize;
     GpuBuffer *not_finite; // one word, as in kernels/adam.cl
@@ -24,9 +25,10 @@ static bool forget_noted(OpenclAdam *a) {
     return gpu_buffer_write(a->not_finite, &none, sizeof none);
 }
 
-bool opencl_adam_create(Gpu *gpu, OpenclAdam **adam) {
+bool opencl_adam_create(Gpu *gpu, bool only_in_view, OpenclAdam **adam) {
     OpenclAdam *a = mem_alloc(1, sizeof *a);
     a->gpu = gpu;
+    a->only_in_view = only_in_view;
     bool good = gpu_buffer_create(gpu, "Adam's note", sizeof(uint32_t), &a->not_finite) && forget_noted(a);
     *adam = good ? a : NULL;
     if (!good) opencl_adam_destroy(a);
@@ -46,8 +48,9 @@ _Static_assert((int)ADAM_MEAN == FIELD_MEAN && (int)ADAM_LOG_SCALE == FIELD_LOG_
                    (int)ADAM_FIELDS == FIELD_COUNT,
                "the kernels number the fields in another way");
 
-static AdamRecord adam_record(const AdamRule *rule, int step) {
+static AdamRecord adam_record(const OpenclAdam *adam, const AdamRule *rule, int step) {
     return (AdamRecord){
+        .only_in_view = adam->only_in_view,
         .beta1 = (float)rule->beta1,
         .beta2 = (float)rule->beta2,
         .one_minus_beta1 = (float)(1 - rule->beta1),
@@ -65,26 +68,28 @@ static bool create_kernels(OpenclAdam *a) {
 }
 
 bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
-                      const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v) {
-    assert(step >= 1);
+                      GpuBuffer *box, const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m,
+                      DeviceGaussians *v) {
+    assert(step >= 1 && (box || !adam->only_in_view));
     assert(gradient->count == model->count && m->count == model->count && v->count == model->count);
     const size_t groups = ((size_t)model->count + ADAM_LANES - 1) / ADAM_LANES;
     if (!adam->normalize && !create_kernels(adam)) return false;
+    const GpuArg box_arg = gpu_buffer_arg(box ? box : adam->not_finite); // which is not looked into
     for (int f = 0; f < FIELD_COUNT; f++) {
         if (GAUSSIAN_FIELDS[f].sh_degree > active_sh_degree || !model->field[f]) continue;
         AdamRule rule = adam_rule_default((double)learning_rate[f]);
-        AdamRecord record = adam_record(&rule, step);
+        AdamRecord record = adam_record(adam, &rule, step);
         record.width = GAUSSIAN_FIELDS[f].width;
         record.splats = model->count;
         record.field = f;
         if (!gpu_launch(adam->adam, gpu_range(groups * (size_t)record.width, GROUP),
-                        gpu_record_arg(&record, sizeof record), gpu_buffer_arg(gradient->field[f]),
+                        gpu_record_arg(&record, sizeof record), box_arg, gpu_buffer_arg(gradient->field[f]),
                         gpu_buffer_arg(model->field[f]), gpu_buffer_arg(m->field[f]), gpu_buffer_arg(v->field[f]),
                         gpu_buffer_arg(adam->not_finite)))
             return false;
     }
     return gpu_launch(adam->normalize, gpu_range(groups, GROUP), gpu_int_arg(model->count),
-                      gpu_buffer_arg(model->field[FIELD_QUAT]));
+                      gpu_int_arg(adam->only_in_view), box_arg, gpu_buffer_arg(model->field[FIELD_QUAT]));
 }
 
 AdamStep opencl_adam_prepare(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], DeviceGaussians *m,
@@ -93,7 +98,7 @@ AdamStep opencl_adam_prepare(OpenclAdam *adam, int step, const float learning_ra
     assert(step >= 1);
     for (int f = 0; f < FIELD_COUNT; f++) {
         AdamRule rule = adam_rule_default((double)learning_rate[f]);
-        s.record.rule = adam_record(&rule, step);
+        s.record.rule = adam_record(adam, &rule, step);
         s.record.rate[f] = s.record.rule.rate;
     }
     return s;

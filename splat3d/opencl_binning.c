@@ -3,7 +3,7 @@
 #include "lab/base/clock.h"
 #include "lab/base/fail.h"
 #include "lab/base/mem.h"
-#include "splat3d/depth_sort.h"
+#include "splat3d/radix_sort.h"
 
 #include <limits.h>
 
@@ -71,7 +71,7 @@ static void number_slots(OpenclBinning *binning, int n, const TileBox *box, cons
         const long tiles = (long)(box[i].x1 - box[i].x0) * (box[i].y1 - box[i].y0);
         if (!tiles) continue;
         binning->slots += tiles;
-        binning->keys[binning->visible++] = depth_sort_key(depth[i], (uint32_t)i);
+        binning->keys[binning->visible++] = radix_key_depth(depth[i], (uint32_t)i);
     }
     gpu_stage_host(binning->gpu, (clock_seconds() - began_s) * 1e3);
 }
@@ -110,7 +110,7 @@ bool opencl_binning_sort(OpenclBinning *binning, const FrameRecord *frame, const
     for (int i = OFFSET; i < MAPS; i++) done = gpu_buffer_unmap(maps[i].buffer) && done;
     if (done && binning->slots > INT_MAX) done = fail_too_many(binning);
     done = done && make_masks(binning, frame, project);
-    if (done) depth_sort(binning->visible, binning->keys, binning->scratch, maps[ORDER].pointer);
+    if (done) radix_sort(binning->visible, binning->keys, binning->scratch, maps[ORDER].pointer);
     return gpu_buffer_unmap(binning->order) && done;
 }
 

@@ -70,7 +70,8 @@ bool opencl_backward_step(OpenclRasterizer *r, OpenclAdam *adam, int step, const
     if (r->project.lanes == 1) {
         if (!reserve_gradient(r, model) || !opencl_backward(r, model, &r->gradient, statistics)) return false;
         gpu_stage(r->gpu, "adam");
-        return opencl_adam_step(adam, step, learning_rate, r->frame.sh_degree, &r->gradient, model, m, v);
+        return opencl_adam_step(adam, step, learning_rate, r->frame.sh_degree, opencl_boxes(r), &r->gradient, model, m,
+                                v);
     }
     const AdamStep adam_step = opencl_adam_prepare(adam, step, learning_rate, m, v);
     if (!blend_backward(r, model)) return false;
@@ -88,6 +89,8 @@ DevicePicture opencl_picture(OpenclRasterizer *r) {
         .d_rgb = r->blend.d_rgb,
     };
 }
+
+GpuBuffer *opencl_boxes(const OpenclRasterizer *r) { return r->project.box; }
 
 FrameCounts opencl_frame_counts(const OpenclRasterizer *r) {
     return (FrameCounts){.visible = r->binning.visible, .pairs = r->binning.pairs};

@@ -46,6 +46,9 @@ bool opencl_backward_step(OpenclRasterizer *r, OpenclAdam *adam, int step, const
                           DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v,
                           const DensityStatistics *statistics);
 
+// (N) TileBox of the last opencl_render(): which splats are in view.
+GpuBuffer *opencl_boxes(const OpenclRasterizer *r);
+
 // Counts of the last opencl_render(): splats in view, (tile, splat) pairs.
 typedef struct {
     int visible;

@@ -30,6 +30,7 @@ typedef struct {
 
     double lr_mean, lr_mean_end; // x scene extent; decays log-linearly over the run
     double lr_log_scale, lr_quat, lr_opacity, lr_sh0, lr_sh_rest;
+    bool sparse_adam; // a step changes only the splats that it sees
 
     int densify_from;        // iterations: density control begins behind this
     double densify_until;    // share of the run

@@ -96,7 +96,8 @@ static bool upload_views(Trainer *t, Dataset *dataset) {
 static bool create_device_side(Trainer *t, BlendKernels blend) {
     int degree = t->options.sh_degree;
     return opencl_rasterizer_create(t->gpu, blend, &t->rasterizer) && opencl_loss_create(t->gpu, blend, &t->loss) &&
-           opencl_adam_create(t->gpu, &t->adam) && device_gaussians_create(t->gpu, "model", 0, degree, &t->model) &&
+           opencl_adam_create(t->gpu, t->options.sparse_adam, &t->adam) &&
+           device_gaussians_create(t->gpu, "model", 0, degree, &t->model) &&
            device_gaussians_create(t->gpu, "first moment", 0, degree, &t->m) &&
            device_gaussians_create(t->gpu, "second moment", 0, degree, &t->v) &&
            gpu_buffer_create(t->gpu, "density gradient", sizeof(float), &t->statistics.gradient_ndc) &&

@@ -6,6 +6,7 @@
 #include "lab/base/fail.h"
 #include "lab/base/log.h"
 #include "splat3d/bench_scene.h"
+#include "splat3d/morton_order.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,6 +47,7 @@ static bool measure_row(Gpu *gpu, const Plan *plan, int splats, const int size_p
     const Camera camera = bench_scene_camera(size_px[0], size_px[1]);
     Gaussians model = bench_scene_gaussians(plan->seed, splats, &camera);
     Image8 photo = bench_scene_photo(plan->seed, camera.width, camera.height);
+    morton_arrange(&model); // as training keeps its splats
     BenchStages *stages = NULL;
     BenchResult result;
     log_info("bench: %d splats at %dx%d px, %d threads", splats, camera.width, camera.height, plan->threads);

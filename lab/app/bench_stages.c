@@ -52,7 +52,7 @@ static bool create_stages(BenchStages *s, BlendKernels blend) {
     const bool is_tile_wise = blend == BLEND_AUTO ? gpu_info(s->gpu)->is_cpu : blend == BLEND_CPU;
     return opencl_project_create(s->gpu, is_tile_wise, &s->project) && opencl_binning_create(s->gpu, &s->binning) &&
            opencl_blend_create(s->gpu, is_tile_wise, &s->blend) && opencl_loss_create(s->gpu, blend, &s->loss) &&
-           opencl_adam_create(s->gpu, &s->adam) && opencl_rasterizer_create(s->gpu, blend, &s->rasterizer);
+           opencl_adam_create(s->gpu, false, &s->adam) && opencl_rasterizer_create(s->gpu, blend, &s->rasterizer);
 }
 
 bool bench_stages_create(Gpu *gpu, BlendKernels blend, const Gaussians *model, const Camera *camera,
@@ -105,7 +105,8 @@ static bool run_loss(BenchStages *s, DevicePicture picture) {
 
 static bool run_adam(BenchStages *s) {
     const float rates[FIELD_COUNT] = {0};
-    return opencl_adam_step(s->adam, ++s->steps, rates, s->model.sh_degree, &s->gradient, &s->model, &s->m, &s->v);
+    return opencl_adam_step(s->adam, ++s->steps, rates, s->model.sh_degree, NULL, &s->gradient, &s->model, &s->m,
+                            &s->v);
 }
 
 // project_backward and adam as a step does them.

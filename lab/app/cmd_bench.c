@@ -8,6 +8,7 @@
 #include "lab/base/parallel.h"
 #include "lab/io/json_io.h"
 #include "splat3d/bench_scene.h"
+#include "splat3d/morton_order.h"
 #include "splat3d/ply.h"
 
 #include <math.h>
@@ -114,13 +115,16 @@ static bool parse_stages(const char *text, bool wanted[BENCH_STAGE_COUNT]) {
     return true;
 }
 
-// The model and the camera that sees it.
+// The model, in the order in which training keeps its splats, and the camera that sees it.
 static bool find_scene(const Options *o, Gaussians *model, Camera *camera) {
     *camera = bench_scene_camera(o->size_px[0], o->size_px[1]);
     if (o->camera[0] && !o->model[0]) return fail_usage("--camera sees a --model; the standard scene has its own");
     if (o->camera[0] && !camera_load_json(o->camera, camera)) return false;
-    if (o->model[0]) return ply_load(o->model, model);
-    *model = bench_scene_gaussians(o->seed, o->splats, camera);
+    if (!o->model[0])
+        *model = bench_scene_gaussians(o->seed, o->splats, camera);
+    else if (!ply_load(o->model, model))
+        return false;
+    morton_arrange(model);
     return true;
 }
 

@@ -46,13 +46,14 @@ static void a_small_hot_splat_is_cloned_in_place(void **state) {
     assert_int_equal(c.cloned, 1);
     assert_int_equal(c.split, 0);
     assert_int_equal(s.model.count, 4);
-    for (GaussianFieldId f = 0; f <= FIELD_SH1; f++)
-        assert_memory_equal(gaussians_at(&s.model, f, 3), gaussians_at(&s.model, f, 1),
+    for (GaussianFieldId f = 0; f <= FIELD_SH1; f++) // it follows its original
+        assert_memory_equal(gaussians_at(&s.model, f, 2), gaussians_at(&s.model, f, 1),
                             (size_t)GAUSSIAN_FIELDS[f].width * 4);
     support_near(*gaussians_at(&s.m, FIELD_OPACITY_LOGIT, 1), 2, 0, "the original keeps its moments");
-    support_near(*gaussians_at(&s.m, FIELD_OPACITY_LOGIT, 3), 0, 0, "the clone has none");
+    support_near(*gaussians_at(&s.m, FIELD_OPACITY_LOGIT, 2), 0, 0, "the clone has none");
     assert_int_equal(s.id[1], 1);
-    assert_int_equal(s.id[3], 3);
+    assert_int_equal(s.id[2], 3);
+    assert_int_equal(s.id[3], 2);
     assert_int_equal(s.next_id, 4);
     assert_int_equal(s.seen[1], 0);
     training_state_destroy(&s);
@@ -67,12 +68,12 @@ static void a_large_hot_splat_is_replaced_by_two_smaller_children(void **state) 
     assert_int_equal(c.split, 1);
     assert_int_equal(s.model.count, 4);
     assert_int_equal(s.id[0], 0);
-    assert_int_equal(s.id[1], 2); // the parent is gone
-    for (int i = 2; i < 4; i++) {
+    assert_int_equal(s.id[3], 2);
+    for (int i = 1; i < 3; i++) { // in the place of their parent
         support_near(exp(gaussians_at(&s.model, FIELD_LOG_SCALE, i)[1]), 0.5 / 1.6, 1e-6, "scale of a child");
         assert_true(s.id[i] >= 3);
     }
-    assert_memory_not_equal(gaussians_at(&s.model, FIELD_MEAN, 2), gaussians_at(&s.model, FIELD_MEAN, 3), 12);
+    assert_memory_not_equal(gaussians_at(&s.model, FIELD_MEAN, 1), gaussians_at(&s.model, FIELD_MEAN, 2), 12);
     training_state_destroy(&s);
 }
 
@@ -139,8 +140,26 @@ static void at_the_cap_the_steepest_grow(void **state) {
     DensityChange c = density_control(&o, 600, EXTENT, false, &s);
     assert_int_equal(c.cloned, 2);
     assert_int_equal(s.model.count, 7);
-    assert_memory_equal(gaussians_at(&s.model, FIELD_MEAN, 5), gaussians_at(&s.model, FIELD_MEAN, 3), 12);
-    assert_memory_equal(gaussians_at(&s.model, FIELD_MEAN, 6), gaussians_at(&s.model, FIELD_MEAN, 4), 12);
+    const uint32_t ids[] = {0, 1, 2, 3, 5, 4, 6};
+    assert_memory_equal(s.id, ids, sizeof ids);
+    assert_memory_equal(gaussians_at(&s.model, FIELD_MEAN, 4), gaussians_at(&s.model, FIELD_MEAN, 3), 12);
+    assert_memory_equal(gaussians_at(&s.model, FIELD_MEAN, 6), gaussians_at(&s.model, FIELD_MEAN, 5), 12);
+    training_state_destroy(&s);
+}
+
+static void the_model_comes_out_along_the_curve_through_space_with_all_that_belongs_to_a_splat(void **state) {
+    (void)state;
+    const float corner[4][3] = {{1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}}; // the curve: 1, 3, 2, 0
+    const uint32_t ids[] = {1, 3, 2, 0};
+    TrainingState s = splats(4);
+    for (int i = 0; i < 4; i++) memcpy(gaussians_at(&s.model, FIELD_MEAN, i), corner[i], sizeof corner[i]);
+    control(&s, false);
+    assert_memory_equal(s.id, ids, sizeof ids);
+    for (int i = 0; i < 4; i++) {
+        assert_memory_equal(gaussians_at(&s.model, FIELD_MEAN, i), corner[ids[i]], sizeof corner[0]);
+        support_near(gaussians_at(&s.model, FIELD_SH1, i)[2], 100 * ids[i] + 10 * FIELD_SH1 + 2, 0, "its colour");
+        support_near(*gaussians_at(&s.m, FIELD_OPACITY_LOGIT, i), ids[i] + 1, 0, "its moment");
+    }
     training_state_destroy(&s);
 }
 
@@ -166,6 +185,7 @@ int main(void) {
         cmocka_unit_test(the_gradient_is_the_mean_over_views_that_saw_the_splat),
         cmocka_unit_test(faint_splats_are_removed_and_huge_ones_after_the_first_reset),
         cmocka_unit_test(at_the_cap_the_steepest_grow),
+        cmocka_unit_test(the_model_comes_out_along_the_curve_through_space_with_all_that_belongs_to_a_splat),
         cmocka_unit_test(a_reset_cuts_opacities_and_their_moments_only),
     };
     return cmocka_run_group_tests_name("density", tests, NULL, NULL);

@@ -26,6 +26,20 @@ static void a_point_becomes_a_round_faint_splat_of_its_colour(void **state) {
     points_destroy(&p);
 }
 
+static void splats_come_along_the_curve_through_space_with_their_own_colours(void **state) {
+    (void)state;
+    Points p = points_create(8); // the corners of a cube, last one first
+    for (int i = 0; i < 8; i++)
+        for (int a = 0; a < 3; a++) p.xyz[3 * i + a] = (7 - i) >> a & 1, p.rgb[3 * i + a] = (uint8_t)(10 * i);
+    Gaussians g = first_splats_from_points(&p, 0, 0.1);
+    for (int i = 0; i < 8; i++) {
+        for (int a = 0; a < 3; a++) support_near(gaussians_at(&g, FIELD_MEAN, i)[a], i >> a & 1, 0, "mean");
+        support_near(0.5 + gaussians_at(&g, FIELD_SH0, i)[0] / (2 * sqrt(M_PI)), 10 * (7 - i) / 255.0, 1e-6, "red");
+    }
+    gaussians_destroy(&g);
+    points_destroy(&p);
+}
+
 static void points_at_one_place_still_get_an_extent(void **state) {
     (void)state;
     Points p = points_create(5);
@@ -58,6 +72,7 @@ static void random_points_fill_the_cube_and_depend_on_the_seed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_becomes_a_round_faint_splat_of_its_colour),
+        cmocka_unit_test(splats_come_along_the_curve_through_space_with_their_own_colours),
         cmocka_unit_test(points_at_one_place_still_get_an_extent),
         cmocka_unit_test(random_points_fill_the_cube_and_depend_on_the_seed),
     };

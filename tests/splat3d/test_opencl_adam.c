@@ -21,7 +21,7 @@ static struct {
 
 static int set_up(void **state) {
     (void)state;
-    bool good = gpu_open("", &at.gpu) && opencl_adam_create(at.gpu, &at.adam);
+    bool good = gpu_open("", &at.gpu) && opencl_adam_create(at.gpu, false, &at.adam);
     if (!good) print_message("%s\n", fail_text());
     return good ? 0 : -1;
 }
@@ -87,7 +87,7 @@ static Gaussians random_gradient(uint32_t number) {
 
 static void step_on_device(int step, int active_degree, const Gaussians *gradient) {
     if (!device_gaussians_write(&at.gradient, gradient) ||
-        !opencl_adam_step(at.adam, step, RATES, active_degree, &at.gradient, &at.model, &at.m, &at.v))
+        !opencl_adam_step(at.adam, step, RATES, active_degree, NULL, &at.gradient, &at.model, &at.m, &at.v))
         fail_msg("%s", fail_text());
 }
 
@@ -281,11 +281,62 @@ static void of_many_bad_numbers_the_lowest_splat_and_its_first_field_are_named(v
     gaussians_destroy(&gradient);
 }
 
+// Every third splat is out of view, and all of two groups of sixteen.
+static bool is_seen(int i) { return i % 3 != 1 && !(i >= 64 && i < 96); }
+
+static GpuBuffer *boxes_of_seen(void) {
+    GpuBuffer *buffer;
+    TileBox *box = mem_alloc(SPLATS, sizeof *box);
+    for (int i = 0; i < SPLATS; i++)
+        if (is_seen(i)) box[i] = (TileBox){i % 5, i % 7, i % 5 + 1 + i % 2, i % 7 + 1};
+    const size_t bytes = SPLATS * sizeof *box;
+    if (!gpu_buffer_create(at.gpu, "boxes", bytes, &buffer) || !gpu_buffer_write(buffer, box, bytes))
+        fail_msg("%s", fail_text());
+    mem_free(box);
+    return buffer;
+}
+
+static void splats_out_of_view_keep_all_their_bits_when_only_those_in_view_are_stepped(void **state) {
+    (void)state;
+    OpenclAdam *sparse;
+    GpuBuffer *box = boxes_of_seen();
+    Gaussians model = random_model(), before[3], all[3], seen[3];
+    DeviceGaussians *arrays[3] = {&at.model, &at.m, &at.v};
+    assert_true(opencl_adam_create(at.gpu, true, &sparse) && device_gaussians_write(&at.model, &model));
+    for (int step = 1; step <= 3; step++) { // moments, and the same once more from where it was
+        Gaussians gradient = random_gradient((uint32_t)step);
+        if (step == 3)
+            for (int k = 0; k < 3; k++) before[k] = read_back(arrays[k]);
+        step_on_device(step, DEGREE, &gradient);
+        gaussians_destroy(&gradient);
+    }
+    for (int k = 0; k < 3; k++) {
+        all[k] = read_back(arrays[k]);
+        assert_true(device_gaussians_write(arrays[k], &before[k]));
+    }
+    assert_true(opencl_adam_step(sparse, 3, RATES, DEGREE, box, &at.gradient, &at.model, &at.m, &at.v));
+    for (int k = 0; k < 3; k++) {
+        seen[k] = read_back(arrays[k]);
+        for (GaussianFieldId f = 0; f < FIELD_COUNT; f++)
+            for (int i = 0; i < SPLATS; i++)
+                assert_memory_equal(gaussians_at(&seen[k], f, i), gaussians_at(is_seen(i) ? &all[k] : &before[k], f, i),
+                                    (size_t)GAUSSIAN_FIELDS[f].width * sizeof(float));
+    }
+    for (int k = 0; k < 3; k++) {
+        gaussians_destroy(&before[k]);
+        gaussians_destroy(&all[k]);
+        gaussians_destroy(&seen[k]);
+    }
+    gaussians_destroy(&model);
+    gpu_buffer_destroy(box);
+    opencl_adam_destroy(sparse);
+}
+
 static void a_step_without_splats_does_nothing(void **state) {
     (void)state;
     assert_true(device_gaussians_resize(&at.gradient, 0) && device_gaussians_resize(&at.model, 0) &&
                 device_gaussians_resize(&at.m, 0) && device_gaussians_resize(&at.v, 0));
-    assert_true(opencl_adam_step(at.adam, 1, RATES, DEGREE, &at.gradient, &at.model, &at.m, &at.v));
+    assert_true(opencl_adam_step(at.adam, 1, RATES, DEGREE, NULL, &at.gradient, &at.model, &at.m, &at.v));
     expect_all_well();
 }
 
@@ -299,6 +350,7 @@ int main(void) {
         ADAM_TEST(quaternions_are_unit_after_a_step_and_zero_stays_zero),
         ADAM_TEST(a_number_that_is_not_finite_is_left_alone_and_its_splat_is_named),
         ADAM_TEST(of_many_bad_numbers_the_lowest_splat_and_its_first_field_are_named),
+        ADAM_TEST(splats_out_of_view_keep_all_their_bits_when_only_those_in_view_are_stepped),
         ADAM_TEST(a_step_without_splats_does_nothing),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

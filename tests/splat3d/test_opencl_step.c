@@ -26,13 +26,13 @@ typedef struct {
     DeviceGaussians gradient;
 } Training;
 
-static void begin(Training *t, const Gaussians *model) {
+static void begin(Training *t, const Gaussians *model, bool only_in_view) {
     const size_t n = (size_t)model->count;
     if (!gpu_open("cpu", &t->gpu) || !opencl_rasterizer_create(t->gpu, BLEND_CPU, &t->rasterizer) ||
         !device_gaussians_create(t->gpu, "gradient", model->count, 3, &t->gradient))
         fail_msg("%s", fail_text());
     for (int k = 0; k < 2; k++)
-        if (!opencl_adam_create(t->gpu, &t->way[k].adam) ||
+        if (!opencl_adam_create(t->gpu, only_in_view, &t->way[k].adam) ||
             !device_gaussians_create(t->gpu, "model", model->count, 3, &t->way[k].model) ||
             !device_gaussians_create(t->gpu, "m", model->count, 3, &t->way[k].m) ||
             !device_gaussians_create(t->gpu, "v", model->count, 3, &t->way[k].v) ||
@@ -83,7 +83,8 @@ static void both_step(Training *t, int step, const Camera *camera, int active_de
         if (done) write_d_rgb(t, 40 + (uint32_t)step, broken);
         if (k == 0)
             done = done && opencl_backward(t->rasterizer, model, &t->gradient, statistics) &&
-                   opencl_adam_step(t->way[k].adam, step, RATES, active_degree, &t->gradient, model, m, v);
+                   opencl_adam_step(t->way[k].adam, step, RATES, active_degree, opencl_boxes(t->rasterizer),
+                                    &t->gradient, model, m, v);
         else
             done = done && opencl_backward_step(t->rasterizer, t->way[k].adam, step, RATES, model, m, v, statistics);
         if (!done) fail_msg("%s", fail_text());
@@ -135,24 +136,33 @@ static Gaussians scene_of(int count, const Camera *camera) {
     return random_scene_gaussians(&scene, camera);
 }
 
+// The camera, looking a third of its picture aside.
+static Camera turned_aside(Camera camera) {
+    camera.cx += WIDTH / 3.0;
+    return camera;
+}
+
+static void expect_one_kernel_steps_as_two_do(int count, bool only_in_view) {
+    const Camera camera = random_scene_camera(51, WIDTH, HEIGHT), aside = turned_aside(camera);
+    Training t = {0};
+    Gaussians model = scene_of(count, &camera), after;
+    begin(&t, &model, only_in_view);
+    for (int step = 1; step <= 5; step++) both_step(&t, step, step % 2 ? &camera : &aside, step < 4 ? step - 1 : 3, 0);
+    expect_same(&t);
+    assert_int_equal(noted_splat(&t), -1);
+    assert_true(device_gaussians_read(&t.way[1].model, &after));
+    assert_true(memcmp(after.field[FIELD_SH0], model.field[FIELD_SH0], 3 * sizeof(float)) != 0); // it did step
+    gaussians_destroy(&after);
+    gaussians_destroy(&model);
+    end(&t);
+}
+
 static void one_kernel_steps_as_two_do(void **state) {
     (void)state;
     const int counts[] = {1, 16, 333};
-    const Camera camera = random_scene_camera(51, WIDTH, HEIGHT);
-    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
-        Training t = {0};
-        Gaussians model = scene_of(counts[c], &camera);
-        begin(&t, &model);
-        for (int step = 1; step <= 5; step++) both_step(&t, step, &camera, step < 4 ? step - 1 : 3, 0);
-        expect_same(&t);
-        assert_int_equal(noted_splat(&t), -1);
-        Gaussians after;
-        assert_true(device_gaussians_read(&t.way[1].model, &after));
-        assert_true(memcmp(after.field[FIELD_SH0], model.field[FIELD_SH0], 3 * sizeof(float)) != 0); // it did step
-        gaussians_destroy(&after);
-        gaussians_destroy(&model);
-        end(&t);
-    }
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        for (int only_in_view = 0; only_in_view < 2; only_in_view++)
+            expect_one_kernel_steps_as_two_do(counts[c], only_in_view);
 }
 
 static void both_note_the_same_splat_that_is_not_finite(void **state) {
@@ -160,7 +170,7 @@ static void both_note_the_same_splat_that_is_not_finite(void **state) {
     const Camera camera = random_scene_camera(51, WIDTH, HEIGHT);
     Training t = {0};
     Gaussians model = scene_of(203, &camera);
-    begin(&t, &model);
+    begin(&t, &model, false);
     both_step(&t, 1, &camera, 3, NAN);
     assert_true(noted_splat(&t) >= 0);
     expect_same(&t);

@@ -1,4 +1,4 @@
-#include "splat3d/depth_sort.h"
+#include "splat3d/radix_sort.h"
 
 #include "lab/base/mem.h"
 #include "lab/base/rng.h"
@@ -13,8 +13,8 @@ static void check_order(const float *depth, int count) {
     uint64_t *keys = mem_alloc((size_t)count, sizeof *keys), *scratch = mem_alloc((size_t)count, sizeof *scratch);
     uint32_t *order = mem_alloc((size_t)count, sizeof *order);
     bool *met = mem_alloc((size_t)count, sizeof *met);
-    for (int i = 0; i < count; i++) keys[i] = depth_sort_key(depth[i], (uint32_t)i);
-    depth_sort(count, keys, scratch, order);
+    for (int i = 0; i < count; i++) keys[i] = radix_key_depth(depth[i], (uint32_t)i);
+    radix_sort(count, keys, scratch, order);
     for (int r = 0; r < count; r++) {
         assert_in_range(order[r], 0, count - 1);
         assert_false(met[order[r]]);

@@ -1,13 +1,13 @@
 // Least significant digit first, three digits of 11 bits: after a stable pass by each, the keys are in order by all
 // (Knuth, The Art of Computer Programming 3, 5.2.5). All histograms are taken in one reading.
 
-#include "splat3d/depth_sort.h"
+#include "splat3d/radix_sort.h"
 
-enum { DIGITS = 3, DIGIT_BITS = 11, BUCKETS = 1 << DIGIT_BITS, DEPTH_SHIFT = 32 };
+enum { DIGITS = 3, DIGIT_BITS = 11, BUCKETS = 1 << DIGIT_BITS, NUMBER_SHIFT = 32 };
 
-static uint32_t digit(uint64_t key, int d) { return key >> (DEPTH_SHIFT + d * DIGIT_BITS) & (BUCKETS - 1); }
+static uint32_t digit(uint64_t key, int d) { return key >> (NUMBER_SHIFT + d * DIGIT_BITS) & (BUCKETS - 1); }
 
-void depth_sort(int count, uint64_t *keys, uint64_t *scratch, uint32_t *order) {
+void radix_sort(int count, uint64_t *keys, uint64_t *scratch, uint32_t *order) {
     uint32_t start[DIGITS][BUCKETS] = {0};
     for (int i = 0; i < count; i++)
         for (int d = 0; d < DIGITS; d++) start[d][digit(keys[i], d)]++;
