@@ -213,10 +213,10 @@ static void what_is_missing_is_said(void **state) {
     CommandResult r = command_run("exercise", "run", "1", "--answer", in_copy("solutions/cov2.c"), NULL);
     command_expect_error(&r, 1, "cannot start the C compiler 'no-such-compiler'", "set CC", NULL);
     unsetenv("CC");
-    setenv("XDG_CACHE_HOME", "/proc/nowhere", 1);
+    support_set_cache("/proc/nowhere");
     r = command_run("exercise", "run", "1", NULL);
     command_expect_error(&r, 1, "set XDG_CACHE_HOME", NULL);
-    unsetenv("XDG_CACHE_HOME");
+    support_set_cache(NULL);
     setenv("SPLATLAB_WORKERS", "/nowhere", 1);
     exercise_files_write("progress.json", "{");
     r = command_run("exercise", NULL);
@@ -229,10 +229,10 @@ static void a_cache_that_is_no_folder_is_said(void **state) {
     char *file = mem_format("%s/file", support_scratch());
     FILE *out = fopen(file, "w");
     fclose(out);
-    setenv("XDG_CACHE_HOME", file, 1);
+    support_set_cache(file);
     CommandResult r = command_run("exercise", "run", "1", NULL);
     command_expect_error(&r, 1, "set XDG_CACHE_HOME to a folder that can be written", NULL);
-    unsetenv("XDG_CACHE_HOME");
+    support_set_cache(NULL);
     mem_free(file);
 }
 

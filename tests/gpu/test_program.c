@@ -24,7 +24,7 @@ static int forget_folder(void **state) {
     (void)state;
     gpu_set_kernel_folder(NULL);
     unsetenv("SPLATLAB_KERNELS");
-    unsetenv("XDG_CACHE_HOME");
+    support_set_cache(NULL);
     return 0;
 }
 
@@ -206,7 +206,7 @@ static void a_compiled_program_is_kept_until_its_text_changes(void **state) {
         skip();
     }
     const char *folder = support_scratch(), *cache = support_path(folder, "cache");
-    setenv("XDG_CACHE_HOME", cache, 1);
+    support_set_cache(cache);
     gpu_set_kernel_folder(folder);
     put_file(folder, "kept.cl", ANSWER_7);
     assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
@@ -225,7 +225,7 @@ static void a_compiled_program_is_kept_until_its_text_changes(void **state) {
 
 static void a_damaged_kept_program_is_not_believed(void **state) {
     const char *folder = support_scratch(), *cache = support_path(folder, "cache");
-    setenv("XDG_CACHE_HOME", cache, 1);
+    support_set_cache(cache);
     gpu_set_kernel_folder(folder);
     put_file(folder, "kept.cl", ANSWER_7);
     assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
@@ -243,7 +243,7 @@ static void a_damaged_kept_program_is_not_believed(void **state) {
         assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
     }
     mem_free(path);
-    setenv("XDG_CACHE_HOME", "/proc/nowhere", 1); // a place where nothing can be kept
+    support_set_cache("/proc/nowhere"); // a place where nothing can be kept
     assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
 }
 

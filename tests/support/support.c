@@ -1,6 +1,7 @@
 #include "tests/support/support.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -33,6 +34,16 @@ const char *support_scratch(void) {
         atexit(remove_scratch);
     }
     return scratch;
+}
+
+void support_set_cache(const char *folder) {
+    static char first[4096];
+    static bool is_known;
+    const char *now = getenv("XDG_CACHE_HOME");
+    if (!is_known) snprintf(first, sizeof first, "%s", now ? now : "");
+    is_known = true;
+    if (!folder) folder = first;
+    folder[0] ? setenv("XDG_CACHE_HOME", folder, 1) : unsetenv("XDG_CACHE_HOME");
 }
 
 const char *support_path(const char *folder, const char *name) {

@@ -20,6 +20,9 @@ const char *support_scratch(void);
 // scratch folder + "/" + name, in one of 8 buffers that rotate.
 const char *support_path(const char *folder, const char *name);
 
+// The folder in which programs keep what is compiled ($XDG_CACHE_HOME); NULL: the one that the test was started with.
+void support_set_cache(const char *folder);
+
 // Fails the test unless |actual - expected| <= tolerance; prints the three with `what`.
 void support_near(double actual, double expected, double tolerance, const char *what);
 
