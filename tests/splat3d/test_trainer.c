@@ -241,6 +241,26 @@ static void an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one(void 
     training_state_destroy(&whole);
 }
 
+// Every third splat is moved out of sight, with the moments that it has.
+static void sparse_adam_steps_the_splats_in_view_alone(void **state) {
+    (void)state;
+    TrainOptions o = small_options(12);
+    o.densify_until = 0;
+    for (int sparse = 0; sparse < 2; sparse++) {
+        o.sparse_adam = sparse;
+        TrainingState before = train_steps(&o, NULL, 11);
+        for (int i = 0; i < before.model.count; i += 3) gaussians_at(&before.model, FIELD_MEAN, i)[0] += 1000;
+        TrainingState after = train_steps(&o, &before, 12);
+        for (int i = 0; i < after.model.count; i++) {
+            const bool stayed = memcmp(gaussians_at(&before.model, FIELD_SH0, i),
+                                       gaussians_at(&after.model, FIELD_SH0, i), 3 * sizeof(float)) == 0;
+            assert_int_equal(stayed, sparse && i % 3 == 0);
+        }
+        training_state_destroy(&before);
+        training_state_destroy(&after);
+    }
+}
+
 // ---- coarse to fine ----
 
 // What a trainer does in a step with pictures of 1/4 is what another does whose photographs are so small.
@@ -439,6 +459,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_steps_lose_what_the_reference_loses),
         cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_does_not),
+        cmocka_unit_test(sparse_adam_steps_the_splats_in_view_alone),
         cmocka_unit_test(an_interrupted_run_ends_with_the_bytes_of_an_uninterrupted_one),
         cmocka_unit_test(a_coarse_step_is_a_step_on_smaller_photographs),
         cmocka_unit_test(no_picture_is_halved_below_the_least_side),
