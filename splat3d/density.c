@@ -13,8 +13,8 @@ typedef enum { ORIGIN_KEPT, ORIGIN_CLONE, ORIGIN_CHILD } Origin;
 // The model after the round, as where each of its splats comes from.
 typedef struct {
     int count;
-    int *source;    // (count) index in the model before
-    Origin *origin; // (count)
+    uint32_t *source; // (count) index in the model before
+    Origin *origin;   // (count)
 } Plan;
 
 static void plan_destroy(Plan *plan) {
@@ -77,7 +77,7 @@ static void plan_add(Plan *plan, int source, Origin origin, bool alive, DensityC
         change->pruned++;
         return;
     }
-    plan->source[plan->count] = source;
+    plan->source[plan->count] = (uint32_t)source;
     plan->origin[plan->count++] = origin;
 }
 
@@ -87,7 +87,8 @@ static void arrange_plan(Plan *plan, const Gaussians *g) {
     float *mean = mem_alloc(n, 3 * sizeof *mean);
     uint32_t *order = mem_alloc(n, sizeof *order);
     Plan arranged = {plan->count, mem_alloc(n, sizeof *plan->source), mem_alloc(n, sizeof *plan->origin)};
-    for (size_t i = 0; i < n; i++) memcpy(mean + 3 * i, gaussians_at(g, FIELD_MEAN, plan->source[i]), 3 * sizeof *mean);
+    for (size_t i = 0; i < n; i++)
+        memcpy(mean + 3 * i, gaussians_at(g, FIELD_MEAN, (int)plan->source[i]), 3 * sizeof *mean);
     morton_order(plan->count, mean, order);
     for (size_t i = 0; i < n; i++) {
         arranged.source[i] = plan->source[order[i]];
@@ -143,29 +144,21 @@ static void make_child(const TrainOptions *o, int step, Gaussians *after, int i)
     }
 }
 
-// Puts the plan's splats in the place of those of g; fresh ones get zeros instead where `zero_new` asks for it (Adam's moments).
-// Field by field, so that only one of them is there twice.
-static void gather(const Plan *plan, bool zero_new, Gaussians *g) {
-    for (GaussianFieldId f = 0; f < FIELD_COUNT; f++) {
-        if (!g->field[f]) continue;
-        size_t width = (size_t)GAUSSIAN_FIELDS[f].width;
-        float *after = mem_alloc((size_t)plan->count, width * sizeof *after);
-        for (int i = 0; i < plan->count; i++)
-            if (!zero_new || plan->origin[i] == ORIGIN_KEPT)
-                memcpy(after + (size_t)i * width, gaussians_at(g, f, plan->source[i]), width * sizeof *after);
-        mem_free(g->field[f]);
-        g->field[f] = after;
-    }
-    g->count = plan->count;
+// Puts the plan's splats in the place of those of the state; Adam's moments of fresh ones are zero.
+static void carry_out(const Plan *plan, TrainingState *s) {
+    uint32_t *kept = mem_alloc((size_t)plan->count, sizeof *kept);
+    for (int i = 0; i < plan->count; i++) kept[i] = plan->origin[i] == ORIGIN_KEPT ? plan->source[i] : GATHER_NOTHING;
+    gaussians_gather(&s->model, plan->count, plan->source);
+    gaussians_gather(&s->m, plan->count, kept);
+    gaussians_gather(&s->v, plan->count, kept);
+    mem_free(kept);
 }
 
 DensityChange density_control(const TrainOptions *o, int step, double scene_extent, bool prune_large,
                               TrainingState *s) {
     DensityChange change = {0};
     Plan plan = make_plan(o, scene_extent, prune_large, s, &change);
-    gather(&plan, false, &s->model);
-    gather(&plan, true, &s->m);
-    gather(&plan, true, &s->v);
+    carry_out(&plan, s);
     size_t n = (size_t)plan.count;
     uint32_t *id = mem_alloc(n, sizeof *id);
     for (size_t i = 0; i < n; i++) {

@@ -10,7 +10,8 @@
 
 #include <stdint.h>
 
-// The splats come in Morton order of their points (morton_order.h). points: at least 1. sh_degree: of the model, 0..3. first_opacity: in (0, 1).
+// The splats come in Morton order of their points (morton_order.h). points: at least 1. sh_degree: of the model, 0..3. first_opacity: in
+// (0, 1).
 Gaussians first_splats_from_points(const Points *points, int sh_degree, double first_opacity);
 
 // `count` points drawn evenly from the cube that the data set names, all near-grey: for scenes that bring none.

@@ -38,6 +38,20 @@ Gaussians gaussians_copy(const Gaussians *g) {
     return copy;
 }
 
+void gaussians_gather(Gaussians *g, int count, const uint32_t *source) {
+    for (GaussianFieldId id = 0; id < FIELD_COUNT; id++) {
+        if (!g->field[id]) continue;
+        size_t width = (size_t)GAUSSIAN_FIELDS[id].width;
+        float *gathered = mem_alloc(field_bytes(id, count), 1);
+        for (size_t k = 0; k < (size_t)count; k++)
+            if (source[k] != GATHER_NOTHING)
+                memcpy(gathered + k * width, gaussians_at(g, id, (int)source[k]), width * sizeof *gathered);
+        mem_free(g->field[id]);
+        g->field[id] = gathered;
+    }
+    g->count = count;
+}
+
 int gaussians_floats_per_splat(int sh_degree) {
     int floats = 0;
     for (int id = 0; id < FIELD_COUNT; id++)

@@ -10,6 +10,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef enum {
     FIELD_MEAN,          // world units
@@ -41,6 +42,11 @@ typedef struct {
 Gaussians gaussians_create(int count, int sh_degree);
 void gaussians_destroy(Gaussians *g); // accepts a zeroed or destroyed one
 Gaussians gaussians_copy(const Gaussians *g);
+
+// Splat k becomes what splat source[k] was, or all zeros for GATHER_NOTHING; source (count). Field by field, so that only one of them
+// is in memory twice.
+#define GATHER_NOTHING UINT32_MAX
+void gaussians_gather(Gaussians *g, int count, const uint32_t *source);
 
 // Floats per splat of a model of that SH degree: 11 + 3 (d + 1)^2, 59 for degree 3.
 int gaussians_floats_per_splat(int sh_degree);

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 enum { CELL_BITS = 21 }; // an axis: three of them fit into 64 bits
 
@@ -66,14 +65,6 @@ void morton_order(int count, const float *xyz, uint32_t *order) {
 void morton_arrange(Gaussians *g) {
     uint32_t *order = mem_alloc((size_t)g->count, sizeof *order);
     morton_order(g->count, g->field[FIELD_MEAN], order);
-    for (GaussianFieldId f = 0; f < FIELD_COUNT; f++) { // one after the other, so that only one of them is there twice
-        if (!g->field[f]) continue;
-        size_t width = (size_t)GAUSSIAN_FIELDS[f].width;
-        float *arranged = mem_alloc((size_t)g->count, width * sizeof *arranged);
-        for (int i = 0; i < g->count; i++)
-            memcpy(arranged + (size_t)i * width, gaussians_at(g, f, (int)order[i]), width * sizeof *arranged);
-        mem_free(g->field[f]);
-        g->field[f] = arranged;
-    }
+    gaussians_gather(g, g->count, order);
     mem_free(order);
 }

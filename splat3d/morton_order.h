@@ -12,8 +12,6 @@
 
 #include "splat3d/gaussians.h"
 
-#include <stdint.h>
-
 // order[rank]: index of the point that comes there; points of one cell (2^-21 of the largest extent) keep their order. xyz (count, 3):
 // finite, any units. count >= 0.
 void morton_order(int count, const float *xyz, uint32_t *order);

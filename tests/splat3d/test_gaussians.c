@@ -43,6 +43,26 @@ static void a_copy_has_the_numbers_and_its_own_memory(void **state) {
     gaussians_destroy(&g);
 }
 
+static void gathered_splats_bring_all_their_numbers_and_nothing_is_zeros(void **state) {
+    (void)state;
+    const uint32_t source[5] = {2, 0, GATHER_NOTHING, 2, 1};
+    Gaussians g = gaussians_create(3, 1);
+    for (int id = 0; id < FIELD_COUNT; id++)
+        for (int k = 0; g.field[id] && k < 3 * GAUSSIAN_FIELDS[id].width; k++)
+            g.field[id][k] = (float)(100 * id + k + 1);
+    Gaussians before = gaussians_copy(&g);
+    gaussians_gather(&g, 5, source);
+    assert_int_equal(g.count, 5);
+    assert_null(g.field[FIELD_SH2]);
+    for (GaussianFieldId id = 0; id <= FIELD_SH1; id++)
+        for (int i = 0; i < 5; i++)
+            for (int k = 0; k < GAUSSIAN_FIELDS[id].width; k++)
+                support_near((double)gaussians_at(&g, id, i)[k],
+                             i == 2 ? 0 : (double)gaussians_at(&before, id, (int)source[i])[k], 0, "number");
+    gaussians_destroy(&g);
+    gaussians_destroy(&before);
+}
+
 static void the_first_splat_that_is_not_finite_is_found(void **state) {
     (void)state;
     Gaussians g = gaussians_create(10, 3);
@@ -76,6 +96,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_degree_has_its_fields_and_no_more),
         cmocka_unit_test(a_copy_has_the_numbers_and_its_own_memory),
+        cmocka_unit_test(gathered_splats_bring_all_their_numbers_and_nothing_is_zeros),
         cmocka_unit_test(the_first_splat_that_is_not_finite_is_found),
         cmocka_unit_test(a_model_without_splats_is_a_model),
     };
