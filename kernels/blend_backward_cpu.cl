@@ -163,7 +163,7 @@ __kernel void blend_backward_cpu(const FrameRecord frame, __global const uint *s
     int next = deepest;
     for (int index = deepest - 1; index >= 0; index--) {
         if (index < next) begun = begun_blocks(block_last, index, &next);
-        if (index >= ENTRIES_AHEAD) { // splats and records lie in the order of the model, anywhere in memory
+        if (index >= ENTRIES_AHEAD) { // splats and records lie in the order of the model, not of the list
             PREFETCH(screen + list_splat[begin + index - ENTRIES_AHEAD]);
             PREFETCH(records + list_slot[begin + index - ENTRIES_AHEAD]);
         }

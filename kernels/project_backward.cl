@@ -20,7 +20,8 @@
 //     gradient_ndc, seen (N): density statistics, added to where has_statistics: |d mean2d| in units of half the picture, 1 when visible
 //
 // With -D ADAM_STEP (and LANES 16) the kernel is project_backward_step: the gradients of a group go through Adam (adam.cl) at once: the
-// same numbers as project_backward and adam one after the other, but 236 bytes a splat are neither written nor read.
+// same numbers as project_backward and adam one after the other, but 236 bytes a splat are neither written nor read. With only_in_view,
+// groups of which the frame shows nothing are left alone, and in others the splats out of view.
 //     m_*, v_*: Adam's moments, shapes as the fields; not_finite (1): as in adam.cl
 //
 // One work-item: LANES Gaussians (splat_lanes.h): one on a GPU, sixteen on a CPU. Local memory: none.

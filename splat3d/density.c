@@ -147,7 +147,8 @@ static void make_child(const TrainOptions *o, int step, Gaussians *after, int i)
 // Puts the plan's splats in the place of those of the state; Adam's moments of fresh ones are zero.
 static void carry_out(const Plan *plan, TrainingState *s) {
     uint32_t *kept = mem_alloc((size_t)plan->count, sizeof *kept);
-    for (int i = 0; i < plan->count; i++) kept[i] = plan->origin[i] == ORIGIN_KEPT ? plan->source[i] : GATHER_NOTHING;
+    for (int i = 0; i < plan->count; i++)
+        kept[i] = plan->origin[i] == ORIGIN_KEPT ? plan->source[i] : GAUSSIANS_GATHER_NOTHING;
     gaussians_gather(&s->model, plan->count, plan->source);
     gaussians_gather(&s->m, plan->count, kept);
     gaussians_gather(&s->v, plan->count, kept);

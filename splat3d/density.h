@@ -19,7 +19,7 @@ typedef struct {
 } DensityChange;
 
 // One round after step `step`. The model comes out in Morton order (morton_order.h) of where its splats come from. Kept splats keep
-// their ids and moments; a clone follows its original, with zero moments, as children have. The statistics start anew. When the
+// their ids and moments; a clone comes behind its original, with zero moments, as children have. The statistics start anew. When the
 // model would exceed max_splats, those with the largest gradients grow. prune_large: also remove splats wider than prune_scale.
 // scene_extent: world units.
 DensityChange density_control(const TrainOptions *options, int step, double scene_extent, bool prune_large,

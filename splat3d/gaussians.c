@@ -44,7 +44,7 @@ void gaussians_gather(Gaussians *g, int count, const uint32_t *source) {
         size_t width = (size_t)GAUSSIAN_FIELDS[id].width;
         float *gathered = mem_alloc(field_bytes(id, count), 1);
         for (size_t k = 0; k < (size_t)count; k++)
-            if (source[k] != GATHER_NOTHING)
+            if (source[k] != GAUSSIANS_GATHER_NOTHING)
                 memcpy(gathered + k * width, gaussians_at(g, id, (int)source[k]), width * sizeof *gathered);
         mem_free(g->field[id]);
         g->field[id] = gathered;

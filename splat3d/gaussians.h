@@ -43,9 +43,9 @@ Gaussians gaussians_create(int count, int sh_degree);
 void gaussians_destroy(Gaussians *g); // accepts a zeroed or destroyed one
 Gaussians gaussians_copy(const Gaussians *g);
 
-// Splat k becomes what splat source[k] was, or all zeros for GATHER_NOTHING; source (count). Field by field, so that only one of them
-// is in memory twice.
-#define GATHER_NOTHING UINT32_MAX
+// Splat k becomes what splat source[k] was, or all zeros for GAUSSIANS_GATHER_NOTHING. source (count): indices of the model before, each
+// any number of times. Field by field, so that only one of them is in memory twice.
+#define GAUSSIANS_GATHER_NOTHING UINT32_MAX
 void gaussians_gather(Gaussians *g, int count, const uint32_t *source);
 
 // Floats per splat of a model of that SH degree: 11 + 3 (d + 1)^2, 59 for degree 3.

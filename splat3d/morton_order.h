@@ -12,7 +12,7 @@
 
 #include "splat3d/gaussians.h"
 
-// order[rank]: index of the point that comes there; points of one cell (2^-21 of the largest extent) keep their order. xyz (count, 3):
+// order (count): order[rank] is the index of the point that comes there; points of one cell (2^-21 of the largest extent) keep their order. xyz (count, 3):
 // finite, any units. count >= 0.
 void morton_order(int count, const float *xyz, uint32_t *order);
 

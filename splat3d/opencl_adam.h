@@ -16,8 +16,8 @@ void opencl_adam_destroy(OpenclAdam *adam); // accepts NULL
 // Step number `step` (1 is the first): parameters, m and v change by the gradient (Kingma & Ba 2015, algorithm 1; beta 0.9,
 // 0.999; epsilon 1e-15; the order of roundings stands in kernels/adam.cl). learning_rate: one per field; fields of SH degree
 // above active_sh_degree are left alone, moments too. Quaternions are renormalised afterwards. A number whose gradient or new
-// value is not finite stays as it is, with its moments, and its splat is noted. box: the frame's (opencl_project.h); NULL where all splats are
-// stepped. Enqueues; does not wait.
+// value is not finite stays as it is, with its moments, and its splat is noted. box (N): opencl_boxes() of the frame; may be NULL unless
+// only_in_view. Enqueues; does not wait.
 bool opencl_adam_step(OpenclAdam *adam, int step, const float learning_rate[FIELD_COUNT], int active_sh_degree,
                       GpuBuffer *box, const DeviceGaussians *gradient, DeviceGaussians *model, DeviceGaussians *m,
                       DeviceGaussians *v);

@@ -46,7 +46,7 @@ bool opencl_backward_step(OpenclRasterizer *r, OpenclAdam *adam, int step, const
                           DeviceGaussians *model, DeviceGaussians *m, DeviceGaussians *v,
                           const DensityStatistics *statistics);
 
-// (N) TileBox of the last opencl_render(): which splats are in view.
+// (N) TileBox of the last opencl_render(): which splats are in view. Borrowed; the next one writes over it.
 GpuBuffer *opencl_boxes(const OpenclRasterizer *r);
 
 // Counts of the last opencl_render(): splats in view, (tile, splat) pairs.

@@ -18,8 +18,8 @@ static inline uint64_t radix_key_depth(float depth, uint32_t index) {
     return radix_key(bits, index);
 }
 
-// order[rank]: index of the key with the rank-th smallest number; equal numbers keep the order in which the keys come.
-// keys and scratch (count each) are overwritten.
+// order (count): order[rank] is the index of the key with the rank-th smallest number; equal numbers keep the order in which the keys
+// come. keys and scratch (count each) are overwritten. count >= 0.
 void radix_sort(int count, uint64_t *keys, uint64_t *scratch, uint32_t *order);
 
 #endif

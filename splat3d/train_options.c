@@ -40,7 +40,7 @@ static const OptionField FIELDS[] = {
     {FIELD("lr-sh0", OPTION_DOUBLE, lr_sh0), .low = 0, .high = 1, .help = "of the colours (SH degree 0)"},
     {FIELD("lr-sh-rest", OPTION_DOUBLE, lr_sh_rest), .low = 0, .high = 1, .help = "of the higher SH degrees"},
     {FIELD("sparse-adam", OPTION_FLAG, sparse_adam),
-     .help = "a step changes only the splats in view: faster where few are, a little worse"},
+     .help = "a step changes only the splats in view: faster with large models, a little worse"},
     {FIELD("densify-from", OPTION_INT, densify_from), .low = 0, .high = 10000000, .unit = "steps",
      .help = "density control begins behind this step", .section = "Density control"},
     {FIELD("densify-until", OPTION_DOUBLE, densify_until), .low = 0, .high = 1, .unit = "of the run",

@@ -248,6 +248,20 @@ static bool descend(Trainer *t, int step, int view, StepReport *report) {
     return true;
 }
 
+// Where it fails the trainer keeps what it had, so that there is a model to save.
+static bool check_adapted(const Gaussians *model, int step) {
+    int splat;
+    GaussianFieldId field;
+    if (model->count == 0)
+        return fail("step %d: density control would remove every splat; lower --prune-opacity, or check the cameras",
+                    step);
+    if (!gaussians_are_finite(model, &splat, &field))
+        return fail("step %d: density control would make a splat whose '%s' is not finite; its parent has grown out of "
+                    "all bounds: try a smaller --lr-log-scale",
+                    step, GAUSSIAN_FIELDS[field].name);
+    return true;
+}
+
 // Density control and opacity reset, when they are due after this step.
 static bool adapt(Trainer *t, int step, StepReport *report) {
     const float *b = t->background;
@@ -263,11 +277,7 @@ static bool adapt(Trainer *t, int step, StepReport *report) {
         report->density =
             density_control(&t->options, step, t->dataset->extent, schedule_prunes_large(&t->options, step), &state);
     if (report->opacity_reset) density_reset_opacity(&t->options, &state);
-    bool done = state.model.count > 0; // else the trainer keeps what it had, so that there is a model to save
-    if (done)
-        done = trainer_set_state(t, &state);
-    else
-        fail("step %d: density control would remove every splat; lower --prune-opacity, or check the cameras", step);
+    bool done = check_adapted(&state.model, step) && trainer_set_state(t, &state);
     training_state_destroy(&state);
     gpu_stage_host(t->gpu, 1e3 * (clock_seconds() - began));
     return done;

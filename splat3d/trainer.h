@@ -33,7 +33,8 @@ typedef struct {
 } StepReport;
 
 // One step. Fails on a device error; when a gradient or a parameter is no longer finite: the message names step, view, splat and
-// field, and the model keeps that splat's last good numbers; and when density control would remove every splat, which it then does not.
+// field, and the model keeps that splat's last good numbers; and when density control would remove every splat, or make one that is not
+// finite, which it then does not.
 bool trainer_step(Trainer *trainer, StepReport *report);
 
 int trainer_steps_done(const Trainer *trainer);

@@ -45,7 +45,7 @@ static void a_copy_has_the_numbers_and_its_own_memory(void **state) {
 
 static void gathered_splats_bring_all_their_numbers_and_nothing_is_zeros(void **state) {
     (void)state;
-    const uint32_t source[5] = {2, 0, GATHER_NOTHING, 2, 1};
+    const uint32_t source[5] = {2, 0, GAUSSIANS_GATHER_NOTHING, 2, 1};
     Gaussians g = gaussians_create(3, 1);
     for (int id = 0; id < FIELD_COUNT; id++)
         for (int k = 0; g.field[id] && k < 3 * GAUSSIAN_FIELDS[id].width; k++)

@@ -430,6 +430,33 @@ static void density_control_that_would_leave_nothing_stops_with_the_model_it_had
     dataset_destroy(&d);
 }
 
+// Children are drawn from parents of a size near the largest float: some means overflow.
+static void density_control_that_would_make_a_splat_that_is_not_finite_stops_by_name(void **state) {
+    (void)state;
+    TrainOptions o = small_options(10);
+    o.densify_from = 0, o.densify_every = 2;
+    Dataset d = make_dataset();
+    Trainer *trainer;
+    StepReport report;
+    TrainingState huge, kept;
+    check(trainer_create(gpu, BLEND_AUTO, &o, &d, &trainer));
+    check(trainer_step(trainer, &report));
+    check(trainer_get_state(trainer, &huge));
+    for (int i = 0; i < 20; i++) {
+        for (int a = 0; a < 3; a++) gaussians_at(&huge.model, FIELD_LOG_SCALE, i)[a] = 88.5f;
+        huge.gradient_sum[i] = 1, huge.seen[i] = 1;
+    }
+    check(trainer_set_state(trainer, &huge));
+    assert_false(trainer_step(trainer, &report));
+    assert_non_null(strstr(fail_text(), "step 2: density control would make a splat whose 'mean' is not finite"));
+    check(trainer_get_state(trainer, &kept));
+    assert_int_equal(kept.model.count, POINTS);
+    training_state_destroy(&huge);
+    training_state_destroy(&kept);
+    trainer_destroy(trainer);
+    dataset_destroy(&d);
+}
+
 static void a_warm_step_allocates_builds_and_copies_nothing(void **state) {
     (void)state;
     enum { WARM_UP = 12, STEPS = 6, NOTE_BYTES = 4 }; // Adam's word of what was not finite
@@ -468,6 +495,7 @@ int main(void) {
         cmocka_unit_test(a_state_of_another_scene_is_refused),
         cmocka_unit_test(a_warm_step_allocates_builds_and_copies_nothing),
         cmocka_unit_test(density_control_that_would_leave_nothing_stops_with_the_model_it_had),
+        cmocka_unit_test(density_control_that_would_make_a_splat_that_is_not_finite_stops_by_name),
     };
     return cmocka_run_group_tests_name("trainer", tests, open_device, close_device);
 }
