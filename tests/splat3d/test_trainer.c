@@ -411,9 +411,7 @@ static void a_state_of_another_scene_is_refused(void **state) {
 static void density_control_that_would_leave_nothing_stops_with_the_model_it_had(void **state) {
     (void)state;
     TrainOptions o = small_options(10);
-    o.densify_from = 0;
-    o.densify_every = 2;
-    o.prune_opacity = 1;
+    o.densify_from = 0, o.densify_every = 2, o.prune_opacity = 1;
     Dataset d = make_dataset();
     Trainer *trainer;
     StepReport report;
