@@ -10,7 +10,7 @@
 //
 //       list:  splat 0 1 2 3 ...                    block 0:  1 0 0 1 ...   -> splats 0, 3
 //       mask of splat 0 = bits of blocks 0..15      block 1:  1 1 0 0 ...   -> splats 0, 1
-// About 25 times faster on PoCL than one work-item per pixel (blend_forward_gpu.cl gives the same picture).
+// About 17 times faster on PoCL than one work-item per pixel (blend_forward_gpu.cl gives the same picture).
 //
 //     start (tiles + 1), list_splat, list_mask (pairs): from tile_sort.cl      screen (N): from project_forward.cl
 //     rgb (3, rows, stride): the picture

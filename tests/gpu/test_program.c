@@ -200,17 +200,22 @@ static char *kept_file(const char *cache) {
 
 static const char ANSWER_7[] = "__kernel void answer(__global int *a) { a[0] = 7; }\n";
 
+// Compiles kept.cl of the folder, with that cache; returns the kept file, or NULL.
+static char *keep_answer_7(Gpu *gpu, const char *folder, const char *cache) {
+    support_set_cache(cache);
+    gpu_set_kernel_folder(folder);
+    put_file(folder, "kept.cl", ANSWER_7);
+    assert_int_equal(run_answer(gpu, "kept.cl", ""), 7);
+    return kept_file(cache);
+}
+
 static void a_compiled_program_is_kept_until_its_text_changes(void **state) {
     if (strcmp(gpu_info(*state)->platform, "Portable Computing Language") != 0) {
         print_message("skipped: %s keeps compiled programs by itself\n", gpu_info(*state)->platform);
         skip();
     }
     const char *folder = support_scratch(), *cache = support_path(folder, "cache");
-    support_set_cache(cache);
-    gpu_set_kernel_folder(folder);
-    put_file(folder, "kept.cl", ANSWER_7);
-    assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
-    char *path = kept_file(cache);
+    char *path = keep_answer_7(*state, folder, cache);
     assert_non_null(path);
     assert_int_equal(run_answer(*state, "kept.cl", ""), 7); // from there
     put_file(folder, "kept.cl", "__kernel void answer(__global int *a) { a[0] = 8; }\n");
@@ -225,11 +230,7 @@ static void a_compiled_program_is_kept_until_its_text_changes(void **state) {
 
 static void a_damaged_kept_program_is_not_believed(void **state) {
     const char *folder = support_scratch(), *cache = support_path(folder, "cache");
-    support_set_cache(cache);
-    gpu_set_kernel_folder(folder);
-    put_file(folder, "kept.cl", ANSWER_7);
-    assert_int_equal(run_answer(*state, "kept.cl", ""), 7);
-    char *path = kept_file(cache);
+    char *path = keep_answer_7(*state, folder, cache);
     if (path) {
         FILE *file = fopen(path, "r+b");
         assert_non_null(file);
