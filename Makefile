@@ -208,7 +208,8 @@ demo: deps all ## make a sample scene, train on it, show the result
 	$(PROGRAM) train $(DEMO_DATA) -o demo/run --iterations $(DEMO_ITERATIONS)
 	@$(PROGRAM) eval demo/run --contact-sheet demo/contact_sheet.png >demo/report.txt && cat demo/report.txt
 	@echo "Photo, render and error of held-out views: $(CURDIR)/demo/contact_sheet.png"
-	@[ -z "$$DISPLAY$$WAYLAND_DISPLAY" ] || ! command -v xdg-open >/dev/null || xdg-open demo/contact_sheet.png
+	@[ -z "$$DISPLAY$$WAYLAND_DISPLAY" ] || ! command -v xdg-open >/dev/null || xdg-open demo/contact_sheet.png 2>/dev/null || \
+	    echo "There is no program here that shows pictures: open demo/contact_sheet.png elsewhere"
 
 .PHONY: figures
 figures: all ## draw the pictures of the lesson pages in docs/ again
